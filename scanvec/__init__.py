@@ -1,0 +1,52 @@
+"""scanvec: Blelloch's scan-vector model on JAX.
+
+Vectors live on a machine; operations on them are the model's: elementwise maps under a context, scans,
+segmented scans, permutations, and what is composed from these. `Simulated` machines run them on P processors
+and keep a ledger of every step; `Device` runs the same programs on whole vectors.
+
+>>> import scanvec as sv
+>>> cm = sv.Simulated(processors=4)
+>>> v = cm.vector([5, 1, 3, 4, 3, 9, 2, 6])
+>>> sv.scan(v, sv.ADD).to_numpy().tolist()
+[0, 5, 6, 9, 13, 16, 25, 27]
+>>> cm.ledger.steps
+1
+
+G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
+"""
+
+# machines and vectors
+from ._device import Device
+from ._ledger import Entry, Ledger, Row
+from ._machine import Machine
+
+# operators
+from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
+
+# movement
+from ._move import append, distribute, get, pack, pack_index, permute, send, split
+
+# scans and reductions
+from ._scan import (
+    backscan,
+    backscan_inclusive,
+    copy_scan,
+    enumerate,
+    reduce,
+    scan,
+    scan_inclusive,
+)
+from ._segments import Segments
+from ._simulated import Simulated
+
+# sorting and sets
+from ._sort import rank, segmented_sort, sort, union, unique
+from ._vector import Vector
+
+__all__ = [
+    "ADD", "AND", "ARGMIN", "COPY", "MAX", "MIN", "MUL", "OR",
+    "Device", "Entry", "Ledger", "Machine", "Monoid", "Row", "Segments", "Simulated", "Vector",
+    "append", "backscan", "backscan_inclusive", "copy_scan", "distribute", "enumerate", "get", "pack",
+    "pack_index", "permute", "rank", "reduce", "scan", "scan_inclusive", "segmented_sort", "send", "sort",
+    "split", "union", "unique",
+]  # fmt: skip

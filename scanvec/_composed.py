@@ -1,0 +1,31 @@
+"""Names composed operations in the ledger of the machine that runs them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
+import jax
+
+from ._machine import is_vector
+
+
+def composed(function: Callable) -> Callable:
+    """Enter all steps of ``function`` in the ledger under its name.
+
+    The machine is that of the first vector among the arguments; outermost names count, so a `pack` that
+    calls `scan` is entered as "pack".
+    """
+
+    @wraps(function)
+    def run(*args: Any, **kwargs: Any) -> Any:
+        for leaf in jax.tree.leaves(args, is_leaf=is_vector):
+            if is_vector(leaf):
+                if leaf.machine.ledger is None:
+                    break
+                with leaf.machine.ledger.operation(function.__name__):
+                    return function(*args, **kwargs)
+        return function(*args, **kwargs)
+
+    return run

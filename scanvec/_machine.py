@@ -1,0 +1,355 @@
+"""What a machine supplies: elementwise maps, scans, gets and sends. Everything else is written from these four."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import jax
+import numpy as np
+
+from . import _local
+from ._monoid import ADD, MUL, Monoid
+from ._vector import Vector
+
+SMALLEST_BLOCK = 4096  # elements; shorter vectors share its compiled kernels
+LARGEST_VECTOR = 2**31 - 1  # indices are int32
+
+
+def is_vector(x: Any) -> bool:
+    return isinstance(x, Vector)
+
+
+def vectors_of(record: Any) -> list[Vector]:
+    """The vectors of a record (a pytree whose leaves are vectors), checked to share machine and length."""
+    leaves = jax.tree.leaves(record, is_leaf=is_vector)
+    if not leaves or not all(map(is_vector, leaves)):
+        kinds = ", ".join(sorted({type(x).__name__ for x in leaves})) or "nothing"
+        msg = f"expected a Vector or a record (pytree) of Vectors, got {kinds}; use machine.vector(array)"
+        raise TypeError(msg)
+    check_alike(leaves)
+    return leaves
+
+
+def check_alike(vectors: list[Vector]) -> None:
+    """Raise ValueError unless all vectors live on one machine and have one length."""
+    first = vectors[0]
+    for v in vectors[1:]:
+        if v.machine is not first.machine:
+            msg = f"vectors live on different machines: {first.machine!r} and {v.machine!r}; move one through to_numpy"
+            raise ValueError(msg)
+        if len(v) != len(first):
+            msg = f"vectors have different lengths: {len(first)} and {len(v)}"
+            raise ValueError(msg)
+
+
+def machine_of(record: Any) -> Machine:
+    return vectors_of(record)[0].machine
+
+
+def length_of(record: Any) -> int:
+    return len(vectors_of(record)[0])
+
+
+def blocks_of(record: Any) -> Any:
+    """The record with each vector replaced by its array."""
+    return jax.tree.map(lambda v: v._block if is_vector(v) else v, record, is_leaf=is_vector)
+
+
+def round_up(n: int, least: int) -> int:
+    """The smallest of least, 4 least, 16 least, ... that holds n: few lengths, so few compilations."""
+    size = least
+    while size < n:
+        size *= 4
+    return size
+
+
+class Machine(abc.ABC):
+    """Where vectors live. Use `Simulated` or `Device`.
+
+    The four primitives below are the whole of what differs between machines. They take a *context*: with
+    ``where=flags`` only the elements whose flag is set take part (Teng et al. 1993, section 2.3).
+    """
+
+    ledger: Any = None  # a Ledger on machines that keep one
+
+    # making vectors and bringing them back
+
+    def vector(self, values: Any, dtype: Any = None) -> Vector:
+        """A vector of the n elements of a one-dimensional array.
+
+        Raises
+        ------
+        ValueError
+            If ``values`` is not one-dimensional.
+        TypeError
+            If its dtype is not boolean, integer or real floating of at most 64 bits.
+        """
+        array = np.asarray(values, dtype)
+        if array.ndim != 1:
+            msg = f"a vector takes a one-dimensional array, got shape {array.shape}; use one vector a column"
+            raise ValueError(msg)
+        if array.dtype.kind not in "biuf" or array.dtype.itemsize > 8:
+            msg = f"a vector takes bool, int, uint or float elements of at most 64 bits, got {array.dtype}"
+            raise TypeError(msg)
+        if len(array) > LARGEST_VECTOR:
+            msg = f"a vector takes at most 2^31 - 1 elements, got {len(array)}"
+            raise ValueError(msg)
+        with jax.enable_x64(True):
+            return Vector(self, self._load(array.astype(array.dtype.newbyteorder("="))), len(array))
+
+    def full(self, n: int, value: Any, dtype: Any) -> Vector:
+        """n elements equal to ``value``."""
+        with jax.enable_x64(True):
+            shape = self._shape(n)
+            return Vector(self, jax.device_put(np.full(shape, value, dtype)), n)
+
+    @abc.abstractmethod
+    def iota(self, n: int) -> Vector:
+        """r[i] = i as int32: each element's own index."""
+
+    @abc.abstractmethod
+    def to_numpy(self, v: Vector) -> np.ndarray:
+        """The elements of ``v`` in order, shape (n,)."""
+
+    @abc.abstractmethod
+    def _load(self, array: np.ndarray) -> jax.Array: ...
+
+    @abc.abstractmethod
+    def _shape(self, n: int) -> tuple[int, ...]: ...
+
+    def item(self, v: Vector, i: int) -> Any:
+        """The element v[i] as a NumPy scalar on the host; negative i counts from the end.
+
+        Raises
+        ------
+        IndexError
+            If i is not an index of v.
+        """
+        n = len(v)
+        if not -n <= i < n:
+            msg = f"index {i} is out of range for a vector of {n} elements"
+            raise IndexError(msg)
+        with jax.enable_x64(True):
+            return np.asarray(self._item(v._block, np.int32(n), np.int32(i % n)))[()]
+
+    @abc.abstractmethod
+    def _item(self, block: jax.Array, n: Any, i: Any) -> jax.Array: ...
+
+    # the four primitives
+
+    def map(
+        self, fn: Callable, *args: Any, where: Vector | None = None, otherwise: Any = None
+    ) -> Any:
+        """Elementwise under a context: r[i] = fn(a[i], b[i], ...) where where[i], else otherwise[i].
+
+        One step, n elements.
+
+        Parameters
+        ----------
+        fn
+            Traceable by JAX. It gets scalars, or records of scalars, one element of each argument, and
+            returns a scalar or a record of scalars. Compiled once for each function object: pass a function
+            that has a name rather than a new lambda each time.
+        args
+            Vectors of length n, records of them, and Python or NumPy scalars, which every element sees.
+        where
+            The context: a vector of n booleans; all when None.
+        otherwise
+            A record like the result, or a scalar for each of its leaves: the value outside the context.
+            Required with ``where``.
+
+        Raises
+        ------
+        TypeError
+            If no argument is a vector, ``fn`` does not return scalars, or ``where`` is not boolean.
+        ValueError
+            If lengths or machines differ.
+        """
+        vectors = [x for x in jax.tree.leaves((args, otherwise), is_leaf=is_vector) if is_vector(x)]
+        if not vectors:
+            msg = "map needs at least one Vector among its arguments"
+            raise TypeError(msg)
+        if where is not None:
+            _check_flags(where, "map: where")
+            vectors.append(where)
+            if otherwise is None:
+                msg = "map under a context needs `otherwise`: what elements outside the context get"
+                raise TypeError(msg)
+        check_alike(vectors)
+        n = len(vectors[0])
+        with jax.enable_x64(True):
+            out = self._map(fn, blocks_of(args), blocks_of(where), blocks_of(otherwise), n)
+            return self._wrap(out, n)
+
+    def scan(
+        self,
+        record: Any,
+        op: Monoid,
+        *,
+        exclusive: bool,
+        backward: bool = False,
+        heads: Vector | None = None,
+    ) -> Any:
+        """The one scan that machines supply; `scanvec.scan` and its siblings name its forms.
+
+        ``heads`` marks the first element of each segment; the scan restarts there (or, backward, at the
+        last element of each segment).
+        """
+        vectors = vectors_of(record)
+        if op in (ADD, MUL):  # as NumPy does, booleans are added as integers
+            record = jax.tree.map(
+                lambda v: v.astype(np.int32) if v.dtype == bool else v, record, is_leaf=is_vector
+            )
+            vectors = vectors_of(record)
+        for v in vectors:
+            op.check(v.dtype, "scan")
+        if heads is not None:
+            _check_flags(heads, "scan: heads")
+            check_alike([vectors[0], heads])
+        n = len(vectors[0])
+        with jax.enable_x64(True):
+            out = self._scan(op, exclusive, backward, blocks_of(record), blocks_of(heads), n)
+            return self._wrap(out, n)
+
+    def get(self, record: Any, index: Vector, *, where: Vector | None = None, otherwise: Any = 0) -> Any:
+        """Concurrent read: r[i] = v[index[i]] where where[i], else the scalar ``otherwise``.
+
+        One step, len(index) elements. Several elements may read one place.
+
+        Raises
+        ------
+        IndexError
+            If an index in the context is not in 0 .. len(v)-1.
+        TypeError
+            If ``index`` is not an integer vector.
+        """
+        vectors = vectors_of(record)
+        index = _check_index(index, vectors[0].machine, "get")
+        if where is not None:
+            _check_flags(where, "get: where")
+            check_alike([index, where])
+        n, m = len(vectors[0]), len(index)
+        with jax.enable_x64(True):
+            out, facts = self._get(blocks_of(record), index._block, blocks_of(where), otherwise, n, m)
+            least, greatest, *loads = np.asarray(facts).tolist()
+            if least < 0 or greatest >= n:
+                _out_of_range("get", least, greatest, n)
+            self._charge("get", m, loads, vectors)
+            return self._wrap(out, m)
+
+    def send(
+        self, record: Any, index: Vector, op: Monoid, into: Any, *, where: Vector | None = None
+    ) -> Any:
+        """Concurrent write: r = into, then for every i with where[i]: r[index[i]] = op(r[index[i]], v[i]).
+
+        ``COPY`` replaces: of several senders to one place the one of lowest index wins. The order of other
+        operators' combinations is not defined, so float sums may differ in the last bits between machines.
+        One step, max(len(v), len(into)) elements.
+
+        Raises
+        ------
+        IndexError
+            If an index in the context is not in 0 .. len(into)-1.
+        ValueError
+            If the records differ in structure, length of index, or dtypes.
+        TypeError
+            If ``index`` is not an integer vector, or ``op`` is not defined for a dtype.
+        """
+        vectors = vectors_of(record)
+        places = vectors_of(into)
+        index = _check_index(index, vectors[0].machine, "send")
+        check_alike([vectors[0], index] + ([] if where is None else [where]))
+        if where is not None:
+            _check_flags(where, "send: where")
+        if places[0].machine is not vectors[0].machine:
+            check_alike([vectors[0], places[0]])
+        if [v.dtype for v in vectors] != [v.dtype for v in places]:
+            got, want = [str(v.dtype) for v in vectors], [str(v.dtype) for v in places]
+            msg = f"send: elements of {', '.join(got)} cannot go into {', '.join(want)}; convert with astype"
+            raise ValueError(msg)
+        for v in vectors:
+            op.check(v.dtype, "send")
+        n, m = len(vectors[0]), len(places[0])
+        with jax.enable_x64(True):
+            out, facts = self._send(
+                op, blocks_of(record), index._block, blocks_of(into), blocks_of(where), n, m
+            )
+            least, greatest, hits, place, *loads = np.asarray(facts).tolist()
+            if least < 0 or greatest >= m:
+                _out_of_range("send", least, greatest, m)
+            if op is _local.UNIQUE and hits > 1:
+                msg = (
+                    f"permute: {hits} elements are sent to position {place}; a permutation takes distinct "
+                    f"indices. For a concurrent write use scanvec.send with a combining operator"
+                )
+                raise ValueError(msg)
+            self._charge("send", max(n, m), loads, vectors)
+            return self._wrap(out, m)
+
+    def _wrap(self, blocks: Any, n: int) -> Any:
+        return jax.tree.map(lambda b: Vector(self, b, n), blocks)
+
+    @abc.abstractmethod
+    def _map(self, fn: Callable, args: Any, where: Any, otherwise: Any, n: int) -> Any: ...
+
+    @abc.abstractmethod
+    def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any: ...
+
+    @abc.abstractmethod
+    def _get(
+        self, record: Any, index: Any, where: Any, otherwise: Any, n: int, m: int
+    ) -> tuple[Any, Any]: ...
+
+    @abc.abstractmethod
+    def _send(
+        self, op: Monoid, record: Any, index: Any, into: Any, where: Any, n: int, m: int
+    ) -> tuple[Any, Any]: ...
+
+    # the ledger; nothing happens on machines that keep none
+
+    def _charge(self, primitive: str, n: int, loads: list[int], vectors: list[Vector]) -> None:
+        """Enter a step that moved elements between processors."""
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """``with machine.phase("search"):`` names a part of the program in the ledger."""
+        if self.ledger is None:
+            yield
+        else:
+            with self.ledger.phase(name):
+                yield
+
+    @contextmanager
+    def operation(self, name: str) -> Iterator[None]:
+        """Names a composed operation in the ledger; the outermost name counts."""
+        if self.ledger is None:
+            yield
+        else:
+            with self.ledger.operation(name):
+                yield
+
+
+def _check_flags(v: Any, what: str) -> None:
+    if not is_vector(v) or v.dtype != bool:
+        got = v.dtype if is_vector(v) else type(v).__name__
+        msg = f"{what} must be a Vector of bool, got {got}"
+        raise TypeError(msg)
+
+
+def _check_index(index: Any, machine: Machine, what: str) -> Vector:
+    if not is_vector(index) or index.dtype.kind not in "iu":
+        got = index.dtype if is_vector(index) else type(index).__name__
+        msg = f"{what}: the index must be a Vector of integers, got {got}"
+        raise TypeError(msg)
+    if index.machine is not machine:
+        msg = f"{what}: the index lives on {index.machine!r}, the vector on {machine!r}"
+        raise ValueError(msg)
+    return index
+
+
+def _out_of_range(what: str, least: int, greatest: int, n: int) -> None:
+    msg = f"{what}: indices from {least} to {greatest}, but the vector has {n} elements (0 .. {n - 1})"
+    raise IndexError(msg)

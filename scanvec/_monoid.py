@@ -1,0 +1,103 @@
+"""Monoids: the operators of scans, reductions and concurrent writes.
+
+A monoid is a value, not a string: an associative function, its identity and a name. The seven of the
+scan model are here (Blelloch 1990, chapter 3); a reader's own are as good, on records too:
+
+>>> import jax.numpy as jnp, scanvec as sv
+>>> LONGEST = sv.Monoid("longest", lambda a, b: jnp.where(b > a, b, a), lambda dtype: 0)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Monoid:
+    """An associative operator with an identity.
+
+    Attributes
+    ----------
+    name
+        What the ledger and the errors call it.
+    fn
+        ``fn(a, b)``: traceable by JAX, associative, elementwise on arrays of any shape. ``a`` and ``b`` are
+        what one element of the scanned record is: an array, or a pytree of arrays.
+    identity
+        ``identity(dtypes)``: the element with ``fn(identity, a) == a``, given the dtype of each leaf.
+    kinds
+        NumPy dtype kinds that it takes ("b" bool, "i" int, "u" unsigned, "f" float).
+    """
+
+    name: str
+    fn: Callable[[Any, Any], Any]
+    identity: Callable[[Any], Any]
+    kinds: str = "biuf"
+
+    def check(self, dtype: np.dtype, primitive: str) -> None:
+        """Raise TypeError where this operator has no meaning for ``dtype``."""
+        if dtype.kind not in self.kinds:
+            msg = (
+                f"{primitive}: the operator {self.name} is not defined for {dtype} elements; "
+                f"convert the vector first, for example with v.astype('int32')"
+            )
+            raise TypeError(msg)
+
+    def __repr__(self) -> str:
+        return f"scanvec.{self.name.upper()}"
+
+
+def lowest(dtype: np.dtype) -> Any:
+    """The least value of a dtype: -inf, the least integer, or False."""
+    dtype = np.dtype(dtype)
+    if dtype.kind == "f":
+        return -np.inf
+    return False if dtype.kind == "b" else np.iinfo(dtype).min
+
+
+def highest(dtype: np.dtype) -> Any:
+    """The greatest value of a dtype: inf, the greatest integer, or True."""
+    dtype = np.dtype(dtype)
+    if dtype.kind == "f":
+        return np.inf
+    return True if dtype.kind == "b" else np.iinfo(dtype).max
+
+
+def _all_ones(dtype: np.dtype) -> Any:
+    dtype = np.dtype(dtype)
+    if dtype.kind == "b":
+        return True
+    return -1 if dtype.kind == "i" else np.iinfo(dtype).max
+
+
+def _left(a: Any, b: Any) -> Any:
+    return a
+
+
+def _argmin(a: tuple, b: tuple) -> tuple:
+    # strict, so that of equal keys the one further left is kept
+    take_b = b[0] < a[0]
+    return jax.tree.map(lambda u, v: jnp.where(take_b, v, u), a, b)
+
+
+ADD = Monoid("add", jnp.add, lambda dtype: 0, "iuf")
+MUL = Monoid("mul", jnp.multiply, lambda dtype: 1, "iuf")
+MIN = Monoid("min", jnp.minimum, highest)
+MAX = Monoid("max", jnp.maximum, lowest)
+AND = Monoid("and", jnp.bitwise_and, _all_ones, "biu")
+OR = Monoid("or", jnp.bitwise_or, lambda dtype: 0, "biu")
+
+# The copy of a segment's first element. It has no two-sided identity; machines start it with a head flag at
+# the first element, and what an exclusive scan leaves at a head is zero.
+COPY = Monoid("copy", _left, lambda dtype: 0)
+
+# On records (key, payload): the pair of least key, of equal keys the leftmost.
+ARGMIN = Monoid(
+    "argmin", _argmin, lambda dtypes: (highest(dtypes[0]), jax.tree.map(lambda _: 0, dtypes[1]))
+)

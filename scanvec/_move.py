@@ -1,0 +1,143 @@
+"""Moving elements: permute, get, send, pack, split, append, distribute. Written once for every machine."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax
+import numpy as np
+
+from . import _local
+from ._composed import composed
+from ._machine import is_vector, length_of, machine_of, vectors_of
+from ._monoid import ADD, Monoid
+from ._segments import Segments
+from ._vector import Vector
+
+
+def get(record: Any, index: Vector, *, where: Vector | None = None, otherwise: Any = 0) -> Any:
+    """Concurrent read: r[i] = v[index[i]] where where[i], else ``otherwise``. One step, len(index) elements.
+
+    Raises IndexError where an index in the context is out of range.
+    """
+    return machine_of(record).get(record, index, where=where, otherwise=otherwise)
+
+
+def send(record: Any, index: Vector, op: Monoid, into: Any, *, where: Vector | None = None) -> Any:
+    """Concurrent write: ``into``, with op(r[index[i]], v[i]) for every i in the context.
+
+    With COPY the sender of lowest index replaces. One step. Raises IndexError where an index is out of range.
+    """
+    return machine_of(record).send(record, index, op, into, where=where)
+
+
+@composed
+def permute(record: Any, index: Vector, *, into: Any = None, where: Vector | None = None) -> Any:
+    """Exclusive write: r[index[i]] = v[i]. One step, n elements.
+
+    Without ``into``, ``index`` must be a permutation of 0 .. n-1. With ``into``, a record of any length, its
+    elements stay where nothing is sent.
+
+    Raises
+    ------
+    ValueError
+        If two elements are sent to one position, or a context is given without ``into``.
+    IndexError
+        If an index is out of range.
+    """
+    if into is None:
+        if where is not None:
+            msg = "permute under a context needs `into`: what stays where nothing is sent"
+            raise ValueError(msg)
+        into = _blank(record, length_of(record))
+    return machine_of(record).send(record, index, _local.UNIQUE, into, where=where)
+
+
+def _blank(record: Any, n: int) -> Any:
+    return jax.tree.map(lambda v: v.machine.full(n, 0, v.dtype), record, is_leaf=is_vector)
+
+
+@composed
+def pack(record: Any, flags: Vector) -> Any:
+    """The elements whose flag is set, in order. Five steps, n elements."""
+    ends = _count(flags)
+    kept = int(flags.machine.item(ends, -1)) if len(flags) else 0
+    return machine_of(record).send(record, ends - 1, _local.UNIQUE, _blank(record, kept), where=flags)
+
+
+def _count(flags: Vector) -> Vector:
+    """r[i] = flags set in v[0], ..., v[i]."""
+    if not is_vector(flags) or flags.dtype != bool:
+        got = flags.dtype if is_vector(flags) else type(flags).__name__
+        msg = f"expected flags, a Vector of bool, got {got}"
+        raise TypeError(msg)
+    return flags.machine.scan(flags, ADD, exclusive=False)
+
+
+@composed
+def pack_index(flags: Vector) -> Vector:
+    """The indices at which the flag is set, in order, int32."""
+    return pack(flags.machine.iota(len(flags)), flags)
+
+
+@composed
+def split(record: Any, flags: Vector) -> Any:
+    """The elements whose flag is clear, in order, then those whose flag is set. Six steps, n elements.
+
+    Blelloch 1990, section 3.4.1: the step of the radix sort.
+    """
+    n = length_of(record)
+    if not n:
+        return record
+    machine = machine_of(record)
+    ups = _count(flags)
+    clear = n - int(machine.item(ups, -1))
+    target = machine.map(_split_target, flags, ups, machine.iota(n), clear)
+    return machine.send(record, target, _local.UNIQUE, _blank(record, n))
+
+
+def _split_target(flag: Any, ups: Any, i: Any, clear: Any) -> Any:
+    return jax.numpy.where(flag, clear + ups - 1, i - ups)
+
+
+@composed
+def append(first: Any, second: Any) -> Any:
+    """r = v, then w: two records of one structure and dtypes. Three steps, len(v) + len(w) elements.
+
+    Raises
+    ------
+    ValueError
+        If structures or dtypes differ.
+    """
+    n, m = length_of(first), length_of(second)
+    machine = machine_of(first)
+    if jax.tree.structure(first, is_leaf=is_vector) != jax.tree.structure(second, is_leaf=is_vector):
+        msg = "append: the two records have different structures"
+        raise ValueError(msg)
+    longer = _blank(first, n + m)
+    if n:
+        longer = machine.send(first, machine.iota(n), _local.UNIQUE, longer)
+    if m:
+        longer = machine.send(second, machine.iota(m) + n, _local.UNIQUE, longer)
+    elif [v.dtype for v in vectors_of(first)] != [v.dtype for v in vectors_of(second)]:
+        msg = "append: the two records have different dtypes; convert with astype"
+        raise ValueError(msg)
+    return longer
+
+
+@composed
+def distribute(record: Any, counts: Vector) -> tuple[Any, Segments]:
+    """counts[i] copies of v[i], for i = 0, 1, ...; and the segments that the copies of one element form.
+
+    Blelloch 1990, section 3.6 (allocation). Eight steps, over n and sum(counts) elements.
+
+    Raises
+    ------
+    ValueError
+        If a count is negative or there is not one for each element.
+    """
+    if len(counts) != length_of(record):
+        msg = f"distribute: {length_of(record)} elements, but {len(counts)} counts"
+        raise ValueError(msg)
+    segments = Segments.from_lengths(counts)
+    return machine_of(record).get(record, segments.ids), segments

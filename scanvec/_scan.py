@@ -1,0 +1,108 @@
+"""Scans and reductions, plain and segmented, written once for every machine.
+
+Blelloch 1990, chapter 3; segmented forms restart at the first element of each segment.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import jax
+import numpy as np
+
+from ._composed import composed
+from ._machine import is_vector, length_of, machine_of, vectors_of
+from ._monoid import ADD, COPY, MUL, Monoid
+from ._segments import Segments
+from ._vector import Vector
+
+
+def _heads(segments: Segments | None, record: Any) -> Vector | None:
+    if segments is None:
+        return None
+    n = length_of(record)
+    if len(segments.heads) != n:
+        msg = f"the segments describe {len(segments.heads)} elements, the vector has {n}"
+        raise ValueError(msg)
+    return segments.heads
+
+
+@composed
+def scan(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """r[i] = op(v[s], ..., v[i-1]), the identity at i = s, the start of i's segment (0 without segments).
+
+    One scan step, n elements. Raises TypeError where ``op`` is not defined for the dtype.
+    """
+    return machine_of(record).scan(record, op, exclusive=True, heads=_heads(segments, record))
+
+
+@composed
+def scan_inclusive(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """r[i] = op(v[s], ..., v[i]), s the start of i's segment (0 without segments). One step, n elements."""
+    return machine_of(record).scan(record, op, exclusive=False, heads=_heads(segments, record))
+
+
+@composed
+def backscan(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """r[i] = op(v[e], ..., v[i+1]), the identity at i = e, the end of i's segment. One step, n elements.
+
+    The operator sees the elements from the right: it matters to those that do not commute, such as COPY.
+    """
+    heads = _heads(segments, record)
+    return machine_of(record).scan(record, op, exclusive=True, backward=True, heads=heads)
+
+
+@composed
+def backscan_inclusive(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """r[i] = op(v[e], ..., v[i]), e the end of i's segment. One step, n elements."""
+    heads = _heads(segments, record)
+    return machine_of(record).scan(record, op, exclusive=False, backward=True, heads=heads)
+
+
+@composed
+def copy_scan(record: Any, segments: Segments | None = None) -> Any:
+    """r[i] = v[s], the first element of i's segment. One step, n elements."""
+    return scan_inclusive(record, COPY, segments)
+
+
+@composed
+def enumerate(flags: Vector, segments: Segments | None = None) -> Vector:  # Blelloch's name
+    """r[i] = how many flags are set before i (in i's segment), as int32. Two steps, n elements."""
+    if flags.dtype != bool:
+        msg = f"enumerate takes a Vector of bool, got {flags.dtype}"
+        raise TypeError(msg)
+    return scan(flags.astype(np.int32), ADD, segments)
+
+
+@composed
+def reduce(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """op(v[0], ..., v[n-1]); with segments, a vector of one such value a segment.
+
+    Without segments the result is a NumPy scalar on the host (a record of them for a record). An empty
+    vector or segment gives the identity. One step, n elements; three with segments.
+    """
+    vectors = vectors_of(record)
+    machine, n = vectors[0].machine, len(vectors[0])
+    if segments is None and n:
+        return jax.tree.map(
+            lambda v: machine.item(v, n - 1), scan_inclusive(record, op), is_leaf=is_vector
+        )
+    if op in (ADD, MUL):
+        record = jax.tree.map(
+            lambda v: v.astype(np.int32) if v.dtype == bool else v, record, is_leaf=is_vector
+        )
+    for v in vectors_of(record):
+        op.check(v.dtype, "reduce")
+    dtypes = jax.tree.map(lambda v: v.dtype, record, is_leaf=is_vector)
+    identity = jax.tree.map(lambda d, e: np.asarray(e).astype(d)[()], dtypes, op.identity(dtypes))
+    if segments is None:
+        return identity
+    if not n:
+        _heads(segments, record)
+        return jax.tree.map(lambda d, e: machine.full(segments.count, e, d), dtypes, identity)
+    running = scan_inclusive(record, op, segments)
+    occupied = segments.lengths > 0
+    last = segments.starts + segments.lengths - 1
+    return jax.tree.map(
+        lambda v, e: machine.get(v, last, where=occupied, otherwise=e), running, identity, is_leaf=is_vector
+    )
