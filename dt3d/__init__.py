@@ -1,0 +1,25 @@
+"""dt3d: Delaunay triangulations in parallel, and how they come about.
+
+>>> import numpy as np, dt3d
+>>> tri = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)))
+>>> tri.simplices.shape[1], tri.simplices.dtype
+(4, dtype('int32'))
+"""
+
+from ._errors import DegenerateInputError, InconsistencyError, InconsistencyWarning
+from ._stats import Progress, Statistics
+from ._topology import OUTSIDE
+from .delaunay import Delaunay
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "OUTSIDE",
+    "DegenerateInputError",
+    "Delaunay",
+    "InconsistencyError",
+    "InconsistencyWarning",
+    "Progress",
+    "Statistics",
+    "__version__",
+]

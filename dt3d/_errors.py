@@ -1,0 +1,35 @@
+"""What dt3d raises beside the ValueErrors of its input contract."""
+
+from __future__ import annotations
+
+
+class DegenerateInputError(ValueError):
+    """The sites span no volume: fewer than four distinct ones, or all on a point, a line or a plane.
+
+    Attributes
+    ----------
+    dimension : int
+        Of the sites' affine hull: 0, 1 or 2; 3 where there is volume.
+    """
+
+    def __init__(self, message: str, dimension: int) -> None:
+        super().__init__(message)
+        self.dimension = dimension
+
+
+class InconsistencyError(RuntimeError):
+    """The method cannot finish the set: too many tetrahedra contradict each other.
+
+    Attributes
+    ----------
+    inconsistencies : int
+        How many there were when it stopped.
+    """
+
+    def __init__(self, message: str, inconsistencies: int) -> None:
+        super().__init__(message)
+        self.inconsistencies = inconsistencies
+
+
+class InconsistencyWarning(RuntimeWarning):
+    """The result has inconsistencies: tetrahedra were left out, so it may have holes or overlaps."""

@@ -1,0 +1,90 @@
+"""A triangulation as meshes of PyVista: the tetrahedra, and the surface of the hull."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pyvista
+
+INSTALL_VIEW = "install it with: pip install 'dt3d[view]'"
+
+
+def volumes(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """Volume of every tetrahedron: det[b-a, c-a, d-a] / 6, positive for positive orientation.
+
+    Parameters
+    ----------
+    points : float (n, 3)
+    simplices : int (m, 4)
+
+    Returns
+    -------
+    float64 (m,)
+    """
+    a, b, c, d = np.asarray(points, np.float64)[simplices].swapaxes(0, 1)
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
+
+
+def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
+    """The tetrahedra of a triangulation, with cell data "iteration" (int32) and "volume" (float64).
+
+    Points keep their numbers: point i of the grid is ``tri.points[i]``, cell j is ``tri.simplices[j]``.
+
+    Raises
+    ------
+    ImportError
+        If PyVista is not installed.
+    """
+    pv = import_pyvista()
+    grid = pv.UnstructuredGrid({pv.CellType.TETRA: tri.simplices}, np.asarray(tri.points, np.float64))
+    grid.cell_data["iteration"] = np.asarray(tri.iteration, np.int32)
+    grid.cell_data["volume"] = volumes(tri.points, tri.simplices)
+    return grid
+
+
+def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
+    """The convex hull as a closed surface of its own points, oriented as ``tri.convex_hull``.
+
+    Raises
+    ------
+    ImportError
+        If PyVista is not installed.
+    """
+    pv = import_pyvista()
+    corners, faces = np.unique(tri.convex_hull, return_inverse=True)
+    points = np.asarray(tri.points, np.float64)[corners]
+    return pv.PolyData.from_regular_faces(points, faces.reshape(-1, 3))
+
+
+def show(tri: Any, title: str = "") -> None:
+    """Open a window on the tetrahedra, with a plane to drag that cuts them open; returns when it is closed.
+
+    Parameters
+    ----------
+    tri : Delaunay or Mesh
+    title : str
+
+    Raises
+    ------
+    ImportError
+        If PyVista is not installed.
+    """
+    plotter = import_pyvista().Plotter(title=title or "dt3d")
+    plotter.add_mesh_clip_plane(
+        to_pyvista(tri), scalars="iteration", cmap="RdYlBu_r", show_edges=True, crinkle=True
+    )
+    plotter.add_axes()
+    plotter.show()
+
+
+def import_pyvista() -> Any:
+    """PyVista, or an ImportError that says how to install it."""
+    try:
+        import pyvista
+    except ImportError as error:
+        msg = f"this needs PyVista, which cannot be loaded ({error}); {INSTALL_VIEW}"
+        raise ImportError(msg) from error
+    return pyvista

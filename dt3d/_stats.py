@@ -1,0 +1,60 @@
+"""What a triangulation reports of how it was found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """Counts of an extrapolation, with the names of Teng et al. 1993, Table 1.
+
+    Attributes
+    ----------
+    iterations : int
+        Rounds of face expansion, the last of which may find the hull only (the table's "depth").
+    face_expansions : int
+        Faces expanded ("FE").
+    sites_searched : int
+        Sites examined in all face expansions ("search/FE" is this over `face_expansions`).
+    tetrahedra_per_iteration : tuple of int
+        Tetrahedra found in iteration 1, 2, ... (Figure 3).
+    inconsistencies : int
+        Tetrahedra left out since they contradict others, and holes that were left (section 5.2); 0 if the
+        result is sound.
+    seconds : dict of str to float
+        Wall time by phase, compilation included.
+    ledger : scanvec.Ledger or None
+        That of a simulated machine.
+    """
+
+    iterations: int
+    face_expansions: int
+    sites_searched: int
+    tetrahedra_per_iteration: tuple[int, ...]
+    inconsistencies: int
+    seconds: dict[str, float]
+    ledger: Any
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What the callback gets after every iteration.
+
+    Attributes
+    ----------
+    iteration : int
+        1, 2, ...
+    open_faces : int
+        Faces that the next iteration will expand; 0 after the last.
+    tetrahedra : int
+        Found so far.
+    seconds : float
+        Since the call.
+    """
+
+    iteration: int
+    open_faces: int
+    tetrahedra: int
+    seconds: float

@@ -1,0 +1,230 @@
+"""The command line: `dt3d demo`, `dt3d triangulate`, `dt3d view`, `dt3d experiment`.
+
+Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C with status 130.
+"""
+
+from __future__ import annotations
+
+import inspect
+import os
+import sys
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import cyclopts
+from cyclopts import Parameter
+from rich.console import Console
+
+import dt3d
+
+from ._report import Growth, ledger_table, stats_table
+
+app = cyclopts.App(
+    name="dt3d",
+    help="3D Delaunay triangulation by parallel incremental extrapolation.",
+    version=dt3d.__version__,
+    suppress_keyboard_interrupt=False,
+)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command; warnings come out as single lines too.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The words after ``dt3d``; those of the process if left out.
+
+    Returns
+    -------
+    int
+        The exit status: 0, 2 for bad input, 130 for Ctrl-C.
+    """
+    errors = Console(stderr=True, soft_wrap=True, highlight=False)
+
+    def one_line(message: Any, *_: Any) -> None:
+        errors.print(f"dt3d: warning: {message}", markup=False)
+
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = one_line
+            app(
+                sys.argv[1:] if argv is None else list(argv),
+                exit_on_error=False,
+                error_console=errors,
+                result_action="return_value",
+            )
+    except cyclopts.CycloptsError:  # printed already
+        return 2
+    except KeyboardInterrupt:
+        errors.print("interrupted")
+        return 130
+    except (ValueError, OSError, ImportError, dt3d.InconsistencyError) as error:
+        errors.print(f"dt3d: {error}", markup=False)
+        return 2
+    return 0
+
+
+@app.command
+def demo(*, out: Path = Path("out")) -> None:
+    """Triangulate a large protein complex that comes with the package; write mtor.vtu and mtor.png.
+
+    Parameters
+    ----------
+    out
+        The folder for both files; made if it is not there.
+    """
+    from .files import write_mesh
+    from .plot import View, draw
+    from .samples import mtor
+
+    out.mkdir(parents=True, exist_ok=True)
+    console = Console(highlight=False)
+    points = mtor()
+    console.print(f"{len(points):,} atoms of two mTOR-mLST8 complexes (PDB entry 4JSV)")
+    tri = _triangulate(console, points)
+    console.print(stats_table(tri, "mTOR-mLST8, PDB entry 4JSV"))
+
+    write_mesh(tri, out / "mtor.vtu")
+    views = [
+        View("all tetrahedra, cut open", shrink=0.85),
+        View("those with edges up to 6 Å: the proteins", shrink=0.9, cut=False, longest=6.0),
+    ]
+    draw(tri, out / "mtor.png", views)
+    console.print(f"wrote {out / 'mtor.vtu'} (for dt3d view, ParaView, PyVista) and {out / 'mtor.png'}")
+
+
+@app.command
+def triangulate(
+    source: Path,
+    *,
+    output: Annotated[Path, Parameter(alias="-o")],
+    machine: Literal["device", "simulated"] | None = None,
+    processors: int | None = None,
+    dtype: Literal["float64", "float32"] | None = None,
+    seed: int = 0,
+    picture: Path | None = None,
+) -> None:
+    """Triangulate the points of a file.
+
+    Parameters
+    ----------
+    source
+        Points: .npy .npz .csv .tsv .txt .xyz .pdb .obj .ply .off .vtk .vtu .vtp .stl
+    output
+        The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull.
+    machine
+        Where the vectors live: on a device of JAX, or on simulated processors with a ledger of their steps.
+    processors
+        Number of simulated processors (32 if left out).
+    dtype
+        Precision of the search.
+    seed
+        Seed of the perturbation.
+    picture
+        Also draw a picture: .png .pdf .svg .jpg
+    """
+    from .files import check_mesh_path, read_points, write_mesh
+    from .plot import check_picture_path, draw
+
+    # what cannot end well does not start
+    check_mesh_path(output)
+    if picture is not None:
+        check_picture_path(picture)
+    on = _machine(machine, processors)
+
+    console = Console(highlight=False)
+    points = read_points(source)
+    console.print(f"{len(points):,} points from {source}")
+    tri = _triangulate(console, points, machine=on, dtype=dtype, seed=seed)
+    console.print(stats_table(tri, str(source)))
+    if tri.stats.ledger is not None:
+        console.print(ledger_table(tri.stats.ledger))
+    write_mesh(tri, output)
+    if picture is not None:
+        draw(tri, picture)
+    console.print(f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
+
+
+@app.command
+def view(file: Path, *, screenshot: Path | None = None) -> None:
+    """Show a mesh of tetrahedra in a window with a plane that cuts it open, or draw it into a file.
+
+    Parameters
+    ----------
+    file
+        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+    screenshot
+        Draw into this file and open no window; works without a screen.
+    """
+    from ._mesh import show
+    from .files import read_mesh
+    from .plot import check_picture_path, draw
+
+    if screenshot is not None:
+        check_picture_path(screenshot)
+    mesh = read_mesh(file)
+    if screenshot is not None:
+        draw(mesh, screenshot)
+        Console(highlight=False).print(f"wrote {screenshot}")
+        return
+    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        msg = "there is no screen to open a window on; use --screenshot FILE.png"
+        raise ValueError(msg)
+    show(mesh, title=str(file))
+
+
+@app.command
+def experiment(name: str | None = None, *, out: Path = Path("out"), **options: int | float | str) -> None:
+    """Run an experiment of the papers; without a name, list them.
+
+    Parameters
+    ----------
+    name
+        One of the list.
+    out
+        The folder for its files; made if it is not there.
+    options
+        Options of the experiment itself.
+    """
+    from .experiments import EXPERIMENTS
+
+    console = Console(highlight=False)
+    if name is None:
+        for known, run in EXPERIMENTS.items():
+            console.print(f"{known:12s} {(inspect.getdoc(run) or '').partition(chr(10))[0]}", markup=False)
+        return
+    if name not in EXPERIMENTS:
+        msg = f"there is no experiment {name!r}; there are {', '.join(EXPERIMENTS)}"
+        raise ValueError(msg)
+    run = EXPERIMENTS[name]
+    try:
+        inspect.signature(run).bind(out, console, **options)
+    except TypeError:
+        known = list(inspect.signature(run).parameters)[2:]
+        msg = f"experiment {name} takes the options {', '.join(known) or '(none)'}; got {', '.join(options)}"
+        raise ValueError(msg) from None
+    out.mkdir(parents=True, exist_ok=True)
+    run(out, console, **options)
+
+
+def _triangulate(console: Console, points: Any, **options: Any) -> Any:
+    with console.status("triangulating"):
+        return dt3d.Delaunay(points, callback=Growth(console), **options)
+
+
+def _machine(machine: str | None, processors: int | None) -> Any:
+    import scanvec
+
+    if processors is not None and machine != "simulated":
+        msg = "--processors goes with --machine simulated"
+        raise ValueError(msg)
+    if machine == "simulated":
+        return scanvec.Simulated(processors=32 if processors is None else processors)
+    return scanvec.Device() if machine == "device" else None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

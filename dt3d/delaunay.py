@@ -1,0 +1,214 @@
+"""The public class: `dt3d.Delaunay`."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import scanvec as sv
+
+from . import _topology
+from ._errors import InconsistencyError, InconsistencyWarning
+from ._input import check_points, check_volume, first_copies
+from ._stats import Progress, Statistics
+from .extrapolation import normalise, perturb, triangulate
+
+if TYPE_CHECKING:
+    import pyvista
+
+METHODS = ("auto", "extrapolation")
+ROBUSTNESS = ("perturb",)
+
+
+class Delaunay:
+    """The Delaunay triangulation of points in space.
+
+    Parameters
+    ----------
+    points : array_like (n, 3)
+        Sites: real, finite, at least four that do not lie on a plane.
+    method : "auto" or "extrapolation"
+        The algorithm. "extrapolation" is the data-parallel one of Teng, Sullivan, Beichl and Puppo (1993).
+    robustness : "perturb"
+        How cospherical sites are decided: by the paper's random linear perturbation of about 1e-9 (float64),
+        with a check of the topology that counts inconsistencies.
+    machine : scanvec.Machine, optional
+        Where it runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All machines
+        give the same tetrahedra.
+    dtype : float64 or float32, optional
+        Working precision, float64 by default. Single precision is for experiments: it decides less.
+    seed : int
+        Of the perturbation.
+    callback : callable, optional
+        Called with a `Progress` after every iteration. What it raises ends the triangulation.
+
+    Attributes
+    ----------
+    points : ndarray of float64 (n, 3)
+        The sites as given.
+    simplices : ndarray of int32 (m, 4)
+        Tetrahedra, each positively oriented: det[b-a, c-a, d-a] > 0.
+    neighbors : ndarray of int32 (m, 4)
+        The k-th is the tetrahedron opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
+    iteration : ndarray of int32 (m,)
+        The iteration, from 1, that found each tetrahedron.
+    duplicates : ndarray of int32 (k, 2)
+        A site that was not used, and the equal site that was.
+    stats : Statistics
+        Counts and times.
+
+    Raises
+    ------
+    ValueError
+        For input that is not finite, real and of shape (n, 3), and for unknown options.
+    DegenerateInputError
+        If all sites lie on a plane, a line or a point.
+    InconsistencyError
+        If the perturbation does not decide enough for the method to finish.
+
+    Warns
+    -----
+    InconsistencyWarning
+        If the result has inconsistencies, or if sites coincide in the working precision only.
+
+    Examples
+    --------
+    >>> import numpy as np, dt3d
+    >>> cube = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    >>> tri = dt3d.Delaunay(cube)
+    >>> tri.simplices.shape, tri.convex_hull.shape
+    ((6, 4), (12, 3))
+    """
+
+    points: np.ndarray
+    simplices: np.ndarray
+    neighbors: np.ndarray
+    iteration: np.ndarray
+    duplicates: np.ndarray
+    stats: Statistics
+
+    def __init__(
+        self,
+        points: Any,
+        *,
+        method: str = "auto",
+        robustness: str = "perturb",
+        machine: sv.Machine | None = None,
+        dtype: Any = None,
+        seed: int = 0,
+        callback: Callable[[Progress], Any] | None = None,
+    ) -> None:
+        begun = time.perf_counter()
+        _check_choice("method", method, METHODS)
+        _check_choice("robustness", robustness, ROBUSTNESS)
+        machine = _check_machine(machine)
+        working = _check_dtype(dtype)
+        self.points = check_points(points)
+        sites, used, self.duplicates = _prepare(self.points, working, seed)
+
+        def report(iteration: int, open_faces: int, tetrahedra: int) -> None:
+            if callback is not None:
+                callback(Progress(iteration, open_faces, tetrahedra, time.perf_counter() - begun))
+
+        outcome = triangulate(machine, sites, report)
+        self.simplices = used[outcome.simplices].astype(np.int32)
+        self.neighbors = outcome.neighbors
+        self.iteration = outcome.iteration
+        inconsistencies = outcome.inconsistencies + self._count_faults(used)
+        self.stats = Statistics(
+            iterations=len(outcome.per_iteration),
+            face_expansions=outcome.face_expansions,
+            sites_searched=outcome.sites_searched,
+            tetrahedra_per_iteration=tuple(outcome.per_iteration),
+            inconsistencies=inconsistencies,
+            seconds=outcome.seconds | {"total": time.perf_counter() - begun},
+            ledger=machine.ledger,
+        )
+        if inconsistencies:
+            msg = (
+                f"the triangulation has {inconsistencies} inconsistencies: tetrahedra that contradict others "
+                f"were left out, so it may have holes or overlaps. Try another seed, or dtype='float64'"
+            )
+            warnings.warn(msg, InconsistencyWarning, stacklevel=2)
+
+    def _count_faults(self, used: np.ndarray) -> int:
+        """Open hull edges; raises where a site was lost, which must not pass unseen."""
+        missing = np.setdiff1d(used, self.simplices)
+        if len(missing):
+            msg = (
+                f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation does "
+                f"not decide this set. Try another seed, or dtype='float64'"
+            )
+            raise InconsistencyError(msg, len(missing))
+        return _topology.open_edges(self.convex_hull)
+
+    @cached_property
+    def convex_hull(self) -> np.ndarray:
+        """Facets of the convex hull, int32 (h, 3), oriented outwards (counter-clockwise from outside)."""
+        return _topology.hull_facets(self.simplices, self.neighbors)
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The tetrahedra as a PyVista grid with cell data "iteration" and "volume".
+
+        Raises ImportError, saying what to install, where PyVista is missing.
+        """
+        from ._mesh import to_pyvista
+
+        return to_pyvista(self)
+
+    def __repr__(self) -> str:
+        return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
+
+
+def _check_choice(name: str, value: Any, allowed: tuple[str, ...]) -> None:
+    if value not in allowed:
+        msg = f"{name} must be {' or '.join(map(repr, allowed))}, got {value!r}"
+        raise ValueError(msg)
+
+
+def _check_machine(machine: Any) -> sv.Machine:
+    if machine is None:
+        return sv.Device()
+    if not isinstance(machine, sv.Machine):
+        msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
+        raise ValueError(msg)
+    return machine
+
+
+def _check_dtype(dtype: Any) -> np.dtype:
+    try:
+        working = np.dtype(np.float64 if dtype is None else dtype)
+    except TypeError:
+        working = None
+    if working not in (np.float32, np.float64):
+        msg = f"dtype must be float64 or float32, got {dtype!r}"
+        raise ValueError(msg)
+    return working
+
+
+def _prepare(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Distinct sites, normalised and perturbed; their indices among the points; and the duplicates."""
+    used, duplicates = first_copies(points)
+    distinct = normalise(points[used])
+    # sixteen times what rounding the coordinates can do to a plane
+    check_volume(distinct, 16 * float(np.finfo(dtype).eps))
+    sites = perturb(distinct, dtype, seed)
+    kept, merged = first_copies(sites)
+    if len(merged):
+        msg = (
+            f"{len(merged)} sites differ from others by less than {dtype} resolves in the extent of the set; "
+            f"they are listed in `duplicates`"
+        )
+        warnings.warn(msg, InconsistencyWarning, stacklevel=4)
+        pairs = np.concatenate([duplicates, used[merged].astype(np.int32)])
+        # a copy of a site that was merged is a copy of what that was merged into
+        final = np.arange(len(points), dtype=np.int32)
+        final[pairs[:, 0]] = pairs[:, 1]
+        duplicates = np.column_stack([pairs[:, 0], final[pairs[:, 1]]])
+        duplicates = duplicates[np.argsort(duplicates[:, 0])].astype(np.int32)
+    return np.ascontiguousarray(sites[kept]), used[kept], duplicates

@@ -1,0 +1,141 @@
+"""Boxes: sets of cells that form a parallelepiped, held as ranges of cell coordinates.
+
+Teng et al. 1993, section 4.2: the dead box of a search holds the cells already opened, the new box those that
+will have been opened after the next round; the difference of the two is what the round opens.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+from .points import Point
+
+
+class Grid(NamedTuple):
+    """The uniform cells: cell (i, j, k) is [origin + (i, j, k) side, origin + (i+1, j+1, k+1) side]."""
+
+    origin: Point
+    side: Any
+    nx: Any
+    ny: Any
+    nz: Any
+
+
+class Box(NamedTuple):
+    """Cells x0..x1, y0..y1, z0..z1, both ends included; empty when x1 < x0."""
+
+    x0: Any
+    x1: Any
+    y0: Any
+    y1: Any
+    z0: Any
+    z1: Any
+
+
+def _cell(coordinate: Any, origin: Any, side: Any, n: Any) -> Any:
+    # clipped as a float: where a sphere is huge the integer would overflow
+    index = jnp.clip((coordinate - origin) / side, 0, n - 1)
+    return jnp.where(jnp.isnan(index), 0, index).astype(jnp.int32)
+
+
+def cell_of(p: Point, grid: Grid) -> Any:
+    """The number of the cell that holds a point, x running fastest."""
+    i = _cell(p.x, grid.origin.x, grid.side, grid.nx)
+    j = _cell(p.y, grid.origin.y, grid.side, grid.ny)
+    k = _cell(p.z, grid.origin.z, grid.side, grid.nz)
+    return i + grid.nx * (j + grid.ny * k)
+
+
+def containment_box(low: Point, high: Point, grid: Grid) -> Box:
+    """The least box of cells that contains the points from ``low`` to ``high``, within the grid."""
+    return Box(
+        _cell(low.x, grid.origin.x, grid.side, grid.nx),
+        _cell(high.x, grid.origin.x, grid.side, grid.nx),
+        _cell(low.y, grid.origin.y, grid.side, grid.ny),
+        _cell(high.y, grid.origin.y, grid.side, grid.ny),
+        _cell(low.z, grid.origin.z, grid.side, grid.nz),
+        _cell(high.z, grid.origin.z, grid.side, grid.nz),
+    )
+
+
+def corners(i: Any, j: Any, k: Any, grid: Grid) -> tuple[Point, Point]:
+    """Lowest and highest corner of a cell.
+
+    Widened by a millionth of a side (a thousandth in single precision), more than what rounding can have
+    put a site, or a corner, to the wrong side.
+    """
+    slack = grid.side * (1e-3 if jnp.asarray(grid.side).dtype == jnp.float32 else 1e-6)
+    low = Point(
+        grid.origin.x + i * grid.side - slack,
+        grid.origin.y + j * grid.side - slack,
+        grid.origin.z + k * grid.side - slack,
+    )
+    width = grid.side + 2 * slack
+    return low, Point(low.x + width, low.y + width, low.z + width)
+
+
+def empty_box(like: Any) -> Box:
+    zero = jnp.zeros_like(like)
+    return Box(zero, zero - 1, zero, zero - 1, zero, zero - 1)
+
+
+def volume(box: Box) -> Any:
+    """How many cells a box has."""
+    sides = (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) * (box.z1 - box.z0 + 1)
+    return jnp.where(box.x1 < box.x0, 0, sides)
+
+
+def contains(outer: Box, inner: Box) -> Any:
+    """Whether every cell of ``inner`` is one of ``outer``."""
+    within = (
+        (outer.x0 <= inner.x0) & (inner.x1 <= outer.x1)
+        & (outer.y0 <= inner.y0) & (inner.y1 <= outer.y1)
+        & (outer.z0 <= inner.z0) & (inner.z1 <= outer.z1)
+    )  # fmt: skip
+    return within | (inner.x1 < inner.x0)
+
+
+def extend(dead: Box, target: Box, steps: Any) -> Box:
+    """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions."""
+    def low(d: Any, t: Any) -> Any:
+        return jnp.maximum(jnp.minimum(d, t), d - steps)
+
+    def high(d: Any, t: Any) -> Any:
+        return jnp.minimum(jnp.maximum(d, t), d + steps)
+
+    return Box(
+        low(dead.x0, target.x0), high(dead.x1, target.x1),
+        low(dead.y0, target.y0), high(dead.y1, target.y1),
+        low(dead.z0, target.z0), high(dead.z1, target.z1),
+    )  # fmt: skip
+
+
+def difference_cell(new: Box, dead: Box, k: Any) -> tuple[Any, Any, Any]:
+    """Coordinates of the k-th cell of ``new`` that is not in ``dead``; dead is within new, or empty.
+
+    The difference is six slabs: below and above dead in z, then in y, then in x. k is counted through them.
+    """
+    # an empty dead box counts as lying just above the new one
+    nothing = dead.x1 < dead.x0
+    z0 = jnp.where(nothing, new.z1 + 1, dead.z0)
+    z1 = jnp.where(nothing, new.z1, dead.z1)
+    slabs = [
+        Box(new.x0, new.x1, new.y0, new.y1, new.z0, z0 - 1),
+        Box(new.x0, new.x1, new.y0, new.y1, z1 + 1, new.z1),
+        Box(new.x0, new.x1, new.y0, dead.y0 - 1, z0, z1),
+        Box(new.x0, new.x1, dead.y1 + 1, new.y1, z0, z1),
+        Box(new.x0, dead.x0 - 1, dead.y0, dead.y1, z0, z1),
+        Box(dead.x1 + 1, new.x1, dead.y0, dead.y1, z0, z1),
+    ]
+    chosen, rest = slabs[0], k
+    for slab in slabs[1:]:
+        skipped = (chosen.x1 - chosen.x0 + 1) * (chosen.y1 - chosen.y0 + 1) * (chosen.z1 - chosen.z0 + 1)
+        beyond = rest >= skipped
+        rest = jnp.where(beyond, rest - skipped, rest)
+        chosen = Box(*(jnp.where(beyond, s, c) for s, c in zip(slab, chosen, strict=True)))
+    width = jnp.maximum(chosen.x1 - chosen.x0 + 1, 1)
+    depth = jnp.maximum(chosen.y1 - chosen.y0 + 1, 1)
+    row = rest // width
+    return chosen.x0 + rest % width, chosen.y0 + row % depth, chosen.z0 + row // depth

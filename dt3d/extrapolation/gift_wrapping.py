@@ -1,0 +1,116 @@
+"""The first Delaunay facet of every site, by gift wrapping.
+
+Teng et al. 1993, section 3: b nearest to a gives a Delaunay edge, and the c of smallest circumcircle with
+(a, b) a Delaunay facet.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+
+import scanvec as sv
+
+from .boxes import Box, Grid, containment_box
+from .buckets import Buckets
+from .points import Point, add, cross, dot, scale, sub
+from .search import Question, search
+
+
+class Ball(NamedTuple):
+    centre: Point
+    radius: Any
+
+
+def ball_box(ball: Ball, grid: Grid) -> Box:
+    """The cells that a ball meets, and perhaps a few more."""
+    radius = ball.radius * (1 + 1e-5) + grid.side * 1e-3
+    reach = Point(radius, radius, radius)
+    return containment_box(sub(ball.centre, reach), add(ball.centre, reach), grid)
+
+
+def squared_distance_to_box(p: Point, low: Point, high: Point) -> Any:
+    """Squared distance from a point to the nearest point of a box; 0 inside it."""
+    gap = Point(*(jnp.maximum(jnp.maximum(lo - v, v - hi), 0) for v, lo, hi in zip(p, low, high, strict=True)))
+    return dot(gap, gap)
+
+
+def ball_meets(ball: Ball, low: Point, high: Point) -> Any:
+    return squared_distance_to_box(ball.centre, low, high) <= ball.radius * ball.radius * (1 + 1e-5)
+
+
+# the nearest site
+
+
+class Start(NamedTuple):
+    a: Point
+    site: Any
+
+
+def _nearest_score(query: Start, site: Point, index: Any) -> Any:
+    d = sub(site, query.a)
+    return jnp.where(index == query.site, jnp.inf, dot(d, d))
+
+
+def _nearest_ball(query: Start, score: Any) -> Ball:
+    return Ball(query.a, jnp.sqrt(score))
+
+
+NEAREST = Question(
+    score=_nearest_score,
+    first_box=lambda query, grid: containment_box(query.a, query.a, grid),
+    region=lambda query, score, grid: ball_box(_nearest_ball(query, score), grid),
+    admits=lambda query, score, low, high: ball_meets(_nearest_ball(query, score), low, high),
+)
+
+
+# the smallest circumcircle with an edge
+
+
+class Edge(NamedTuple):
+    a: Point
+    b: Point
+    site_a: Any
+    site_b: Any
+
+
+def _circle_score(query: Edge, site: Point, index: Any) -> Any:
+    """Squared circumradius of (a, b, site): |ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2)."""
+    ab, ac, bc = sub(query.b, query.a), sub(site, query.a), sub(site, query.b)
+    normal = cross(ab, ac)
+    area = dot(normal, normal)
+    flat = (area <= 0) | (index == query.site_a) | (index == query.site_b)
+    product = dot(ab, ab) * dot(ac, ac) * dot(bc, bc)
+    return jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+
+
+def _circle_ball(query: Edge, score: Any) -> Ball:
+    # A circle of radius R through a and b has its centre within h = sqrt(R^2 - |ab|^2/4) of their midpoint,
+    # so any c whose circle is smaller lies within R + h of it.
+    edge = sub(query.b, query.a)
+    height = jnp.sqrt(jnp.maximum(score - dot(edge, edge) / 4, 0))
+    return Ball(scale(0.5, add(query.a, query.b)), jnp.sqrt(score) + height)
+
+
+def _ends_box(query: Edge, grid: Grid) -> Box:
+    low = Point(*(jnp.minimum(u, v) for u, v in zip(query.a, query.b, strict=True)))
+    high = Point(*(jnp.maximum(u, v) for u, v in zip(query.a, query.b, strict=True)))
+    return containment_box(low, high, grid)
+
+
+SMALLEST_CIRCLE = Question(
+    score=_circle_score,
+    first_box=_ends_box,
+    region=lambda query, score, grid: ball_box(_circle_ball(query, score), grid),
+    admits=lambda query, score, low, high: ball_meets(_circle_ball(query, score), low, high),
+)
+
+
+def first_facets(buckets: Buckets) -> tuple[sv.Vector, sv.Vector, sv.Vector]:
+    """A Delaunay facet (a, b, c) for every site a: three int32 vectors of length n."""
+    sites, machine = buckets.sites, buckets.origin.machine
+    a = machine.iota(len(buckets.origin))
+    b = search(buckets, Start(sites, a), NEAREST).site
+    c = search(buckets, Edge(sites, sv.get(sites, b), a, b), SMALLEST_CIRCLE).site
+    return a, b, c

@@ -1,0 +1,32 @@
+"""Normalisation to the unit cube, and the random linear map that resolves cospherical sites.
+
+Teng et al. 1993, section 5.1: sites v become (I + eta M) v with M uniform in [0, 1]. Lines and planes stay what
+they are; spheres become ellipsoids, so five cospherical sites are no longer so.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+# Small against the gaps that decide an in-sphere test of sites at random, large against rounding.
+MAGNITUDE = {np.dtype(np.float64): 2.0**-30, np.dtype(np.float32): 2.0**-12}
+
+
+def normalise(points: np.ndarray) -> np.ndarray:
+    """Sites moved to the origin and scaled by a power of two into the unit cube, float64 (n, 3).
+
+    Scaling by a power of two is exact; differences to the least coordinate round once.
+    """
+    low = points.min(axis=0)
+    with np.errstate(over="ignore"):
+        extent = (points / 4 - low / 4).max()  # quarters, so that the difference cannot overflow
+    exponent = int(np.frexp(extent)[1]) + 2
+    return np.ldexp(points, -exponent) - np.ldexp(low, -exponent)
+
+
+def perturb(sites: np.ndarray, dtype: np.dtype, seed: int) -> np.ndarray:
+    """(I + eta M) applied to sites (n, 3), in the working precision."""
+    m = np.random.default_rng(seed).random((3, 3))
+    # written out, so that equal sites give equal results wherever they stand in the array
+    moved = np.column_stack([m[k, 0] * sites[:, 0] + m[k, 1] * sites[:, 1] + m[k, 2] * sites[:, 2] for k in range(3)])
+    return (sites + MAGNITUDE[np.dtype(dtype)] * moved).astype(dtype)

@@ -1,0 +1,241 @@
+"""Pictures of the tetrahedra, coloured by the iteration that found them.
+
+They are painted back to front on a matplotlib figure, so they need neither a screen nor an OpenGL library.
+A theorem makes this possible: seen from any point, the tetrahedra of a Delaunay triangulation can be ordered
+so that none hides one that is painted after it, namely by falling power of the eye with respect to their
+circumspheres (H. Edelsbrunner, An acyclicity theorem for cell complexes in d dimension, Combinatorica 10,
+1990).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._mesh import INSTALL_VIEW
+from ._paths import check_folder
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FORMATS = (".png", ".pdf", ".svg", ".jpg")
+
+# The faces of a tetrahedron, each opposite the vertex of its number, seen counter-clockwise from outside.
+FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+EYE = 4.0  # distance of the eye from the centre, in radii of the set
+
+
+@dataclass(frozen=True)
+class View:
+    """What one panel of a picture shows.
+
+    Attributes
+    ----------
+    title : str
+        A line above the panel.
+    shrink : float
+        Size of each tetrahedron about its own centre; below 1 gaps open and let one see inside.
+    cut : bool
+        Leave out what lies before a plane through the middle, slightly turned to the eye.
+    longest : float, optional
+        Leave out tetrahedra with an edge longer than this; what stays of a molecule is its body.
+    upto : int, optional
+        Show only what was found up to this iteration.
+    azimuth, elevation : float
+        Where the eye is, in degrees about the z axis and above the xy plane.
+    """
+
+    title: str = ""
+    shrink: float = 0.8
+    cut: bool = True
+    longest: float | None = None
+    upto: int | None = None
+    azimuth: float = 35.0
+    elevation: float = 22.0
+
+
+def draw(
+    tri: Any,
+    path: str | Path,
+    views: View | Sequence[View] = View(),  # noqa: B008  frozen
+    *,
+    width: int = 1400,
+    height: int = 1200,
+) -> None:
+    """Write a picture of a triangulation, one panel a view, side by side.
+
+    Parameters
+    ----------
+    tri : Delaunay
+        Anything with ``points``, ``simplices`` and ``iteration``.
+    path : str or Path
+        .png, .pdf, .svg or .jpg; vector formats suit up to some thousand tetrahedra.
+    views : View or sequence of View
+    width, height : int
+        Pixels of one panel.
+
+    Raises
+    ------
+    ValueError
+        For another extension.
+    FileNotFoundError
+        If the folder does not exist.
+    ImportError
+        If matplotlib is not installed.
+    """
+    path = check_picture_path(path)
+    mpl = _import_matplotlib()
+    views = [views] if isinstance(views, View) else list(views)
+    last = max(1, int(np.max(tri.iteration, initial=1)))
+
+    # a strip on the right holds the colour bar
+    bar, dpi = 0.11 * width, 100
+    whole = width * len(views) + bar
+    figure = mpl.figure.Figure(figsize=(whole / dpi, height / dpi), dpi=dpi, facecolor="white")
+    for k, view in enumerate(views):
+        paint(tri, figure.add_axes(((k + 0.02) * width / whole, 0.02, 0.96 * width / whole, 0.92)), view)
+    colors = mpl.colors.ListedColormap(_palette(mpl, last))
+    norm = mpl.colors.BoundaryNorm(np.arange(0.5, last + 1), last)
+    axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
+    ticks = range(1, last + 1, -(-last // 12))
+    scale = figure.colorbar(mpl.cm.ScalarMappable(norm, colors), cax=axes, ticks=ticks)
+    size = height / 75
+    scale.set_label("found in iteration", size=size, labelpad=size / 2)
+    scale.ax.tick_params(labelsize=size, length=0)
+    scale.outline.set_visible(False)
+    figure.savefig(path)
+
+
+def paint(tri: Any, ax: Axes, view: View = View()) -> None:  # noqa: B008  frozen
+    """Paint a triangulation on matplotlib axes, which it clears of ticks and frame.
+
+    Parameters
+    ----------
+    tri : Delaunay
+        Anything with ``points``, ``simplices`` and ``iteration``.
+    ax : matplotlib.axes.Axes
+    view : View
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed.
+    """
+    mpl = _import_matplotlib()
+    camera = _camera(view)
+
+    # the unit ball about the used points; several pictures of one set agree in scale
+    used = tri.points[np.unique(tri.simplices)]
+    centre = (used.min(axis=0) + used.max(axis=0)) / 2
+    radius = np.linalg.norm(used - centre, axis=1).max()
+    corners = (((tri.points - centre) / radius) @ camera.T)[tri.simplices]
+
+    shown = _shown(corners * radius, tri.iteration, view)
+    corners, iteration = corners[shown], np.asarray(tri.iteration)[shown]
+    order = _back_to_front(corners)
+    corners, iteration = corners[order], iteration[order]
+    middle = corners.mean(axis=1, keepdims=True)
+    corners = middle + view.shrink * (corners - middle)
+
+    # faces turned to the eye, which is at (0, 0, EYE): x to the right, y up, z to the eye
+    faces = corners[:, FACES]
+    normal = np.cross(faces[:, :, 1] - faces[:, :, 0], faces[:, :, 2] - faces[:, :, 0])
+    normal /= np.linalg.norm(normal, axis=2, keepdims=True) + np.finfo(float).tiny
+    visible = np.einsum("mfk,mfk->mf", normal, [0.0, 0.0, EYE] - faces[:, :, 0]) > 0
+    faces, normal = faces[visible], normal[visible]
+    flat = faces[:, :, :2] * (EYE / (EYE - faces[:, :, 2:]))
+
+    last = max(1, int(np.max(tri.iteration, initial=1)))
+    color = _palette(mpl, last)[np.repeat(iteration - 1, visible.sum(axis=1))]
+    color = _light(color, normal, faces[:, :, 2].mean(axis=1))
+    # thin dark outlines, thinner the more there are; they also close the seams between faces
+    thickness = np.clip(30 / np.sqrt(len(flat) + 1), 0.05, 0.5)
+    ax.add_collection(
+        mpl.collections.PolyCollection(flat, facecolors=color, edgecolors=0.6 * color, linewidths=thickness)
+    )
+    # room for all the sites, so that pictures of a growing set stay in place
+    sites = ((used - centre) / radius) @ camera.T
+    sites = sites[:, :2] * (EYE / (EYE - sites[:, 2:]))
+    (left, low), (right, high) = sites.min(axis=0), sites.max(axis=0)
+    ax.set(xlim=(left, right), ylim=(low, high), aspect="equal")
+    ax.margins(0.02)
+    ax.axis("off")
+    ax.set_title(view.title, size=ax.figure.get_figheight() * 1.6)
+
+
+def check_picture_path(path: str | Path) -> Path:
+    """The path, if a picture can be written there; a ValueError or FileNotFoundError if not."""
+    path = Path(path)
+    if path.suffix.lower() not in FORMATS:
+        msg = f"cannot draw {path}: unknown extension {path.suffix!r}; known are {', '.join(FORMATS)}"
+        raise ValueError(msg)
+    return check_folder(path)
+
+
+def _palette(mpl: Any, last: int) -> np.ndarray:
+    """A colour for every iteration from 1 to the last: float64 (last, 3)."""
+    # from blue through pale yellow to red: told apart by colour-blind eyes, and under light and shade
+    return mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, max(last, 2)))[:last, :3]
+
+
+def _camera(view: View) -> np.ndarray:
+    """Rows: right, up, and towards the eye."""
+    a, e = np.radians([view.azimuth, view.elevation])
+    toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    right = np.array([-np.sin(a), np.cos(a), 0.0])
+    return np.stack([right, np.cross(toward, right), toward])
+
+
+def _shown(corners: np.ndarray, iteration: np.ndarray, view: View) -> np.ndarray:
+    shown = np.ones(len(corners), bool)
+    if view.upto is not None:
+        shown &= iteration <= view.upto
+    if view.longest is not None:
+        edges = corners[:, [0, 0, 0, 1, 1, 2]] - corners[:, [1, 2, 3, 2, 3, 3]]
+        shown &= np.linalg.norm(edges, axis=2).max(axis=1) <= view.longest
+    if view.cut:
+        shown &= corners.mean(axis=1) @ [0.5, 0.15, 0.85] < 0
+    return shown
+
+
+def _back_to_front(corners: np.ndarray) -> np.ndarray:
+    """The painter's order: by falling power of the eye with respect to the circumspheres."""
+    origin = corners[:, 0] - [0.0, 0.0, EYE]
+    edges = corners[:, 1:] - corners[:, :1]
+    squared = np.einsum("mik,mik->mi", edges, edges)
+    # 2 edges . (circumcentre - a) = squared, by Cramer's rule; det is positive, if tiny for a sliver
+    u, v, w = edges.swapaxes(0, 1)
+    numerator = (
+        squared[:, :1] * np.cross(v, w) + squared[:, 1:2] * np.cross(w, u) + squared[:, 2:] * np.cross(u, v)
+    )
+    det = np.einsum("mk,mk->m", np.cross(u, v), w)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # |eye - circumcentre|^2 - r^2, with the eye as origin and r^2 = |circumcentre - a|^2
+        power = np.einsum("mk,mk->m", origin, origin + numerator / det[:, None])
+    # cospherical neighbours tie (the cells of a grid, split); among them the farther centre goes first
+    distance = np.linalg.norm(corners.mean(axis=1) - [0.0, 0.0, EYE], axis=1)
+    return np.lexsort([-distance, -np.round(np.nan_to_num(power, nan=0.0), 9)])
+
+
+def _light(color: np.ndarray, normal: np.ndarray, depth: np.ndarray) -> np.ndarray:
+    """Faces brighten towards a lamp at the upper left, and fade into the background with distance."""
+    lamp = np.array([-0.35, 0.55, 0.75])
+    lit = color * (0.55 + 0.5 * np.clip(normal @ (lamp / np.linalg.norm(lamp)), 0.0, 1.0))[:, None]
+    haze = 0.18 * np.clip(1.0 - depth, 0.0, 2.0)[:, None] / 2.0
+    return np.clip(lit * (1.0 - haze) + haze, 0.0, 1.0)
+
+
+def _import_matplotlib() -> Any:
+    try:
+        import matplotlib
+        import matplotlib.cm
+        import matplotlib.collections
+        import matplotlib.figure
+    except ImportError as error:
+        msg = f"a picture needs matplotlib, which cannot be loaded ({error}); {INSTALL_VIEW}"
+        raise ImportError(msg) from error
+    return matplotlib
