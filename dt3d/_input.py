@@ -44,7 +44,9 @@ def check_points(points: Any) -> np.ndarray:
     with np.errstate(over="ignore"):
         array = given.astype(np.float64)
     if given.dtype.kind in "iu" and (np.abs(array) > 2.0**53).any():
-        msg = "points have integers beyond 2^53, which float64 does not hold exactly; subtract an offset first"
+        msg = (
+            "points have integers beyond 2^53, which float64 does not hold exactly; subtract an offset first"
+        )
         raise ValueError(msg)
     finite = np.isfinite(array).all(axis=1)
     if not finite.all():

@@ -60,7 +60,7 @@ def stats_table(tri: Any, title: str) -> Table:
 
 
 def ledger_table(ledger: Any) -> Table:
-    """What a simulated machine did, by phase, and in all.
+    """What a simulated machine did, by phase, and in all; both again for the busiest processor of each step.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def ledger_table(ledger: Any) -> Table:
     """
     table = Table(title="Steps of the simulated machine", title_justify="left")
     table.add_column("phase")
-    for heading in ("steps", "elements", "element steps of the busiest", "messages", "of the busiest"):
+    for heading in ("steps", "elements", "busiest's", "messages", "busiest's"):
         table.add_column(heading, justify="right")
     rows = ledger.table("phase")
     names = ("steps", "elements", "vp_steps", "messages", "busiest")

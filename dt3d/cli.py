@@ -44,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     errors = Console(stderr=True, soft_wrap=True, highlight=False)
 
-    def one_line(message: Any, *_: Any) -> None:
+    def one_line(message: Warning | str, *_: Any, **__: Any) -> None:
         errors.print(f"dt3d: warning: {message}", markup=False)
 
     try:
@@ -193,25 +193,26 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
 
     console = Console(highlight=False)
     if name is None:
-        for known, run in EXPERIMENTS.items():
-            console.print(f"{known:12s} {(inspect.getdoc(run) or '').partition(chr(10))[0]}", markup=False)
+        for known, function in EXPERIMENTS.items():
+            summary = " ".join((inspect.getdoc(function) or "").partition("\n\n")[0].split())
+            console.print(f"{known:12s} {summary}", markup=False, soft_wrap=True)
         return
     if name not in EXPERIMENTS:
         msg = f"there is no experiment {name!r}; there are {', '.join(EXPERIMENTS)}"
         raise ValueError(msg)
-    run = EXPERIMENTS[name]
+    run: Any = EXPERIMENTS[name]
     try:
         inspect.signature(run).bind(out, console, **options)
     except TypeError:
-        known = list(inspect.signature(run).parameters)[2:]
-        msg = f"experiment {name} takes the options {', '.join(known) or '(none)'}; got {', '.join(options)}"
+        takes = ", ".join(list(inspect.signature(run).parameters)[2:]) or "(none)"
+        msg = f"experiment {name} takes the options {takes}; got {', '.join(options)}"
         raise ValueError(msg) from None
     out.mkdir(parents=True, exist_ok=True)
     run(out, console, **options)
 
 
 def _triangulate(console: Console, points: Any, **options: Any) -> Any:
-    with console.status("triangulating"):
+    with console.status("triangulating (the first iteration includes compilation)"):
         return dt3d.Delaunay(points, callback=Growth(console), **options)
 
 

@@ -108,6 +108,10 @@ class Delaunay:
         _check_choice("robustness", robustness, ROBUSTNESS)
         machine = _check_machine(machine)
         working = _check_dtype(dtype)
+        _check_seed(seed)
+        if callback is not None and not callable(callback):
+            msg = f"callback must be callable, got {callback!r}"
+            raise ValueError(msg)
         self.points = check_points(points)
         sites, used, self.duplicates = _prepare(self.points, working, seed)
 
@@ -137,15 +141,17 @@ class Delaunay:
             warnings.warn(msg, InconsistencyWarning, stacklevel=2)
 
     def _count_faults(self, used: np.ndarray) -> int:
-        """Open hull edges; raises where a site was lost, which must not pass unseen."""
+        """Open hull edges and flat or turned tetrahedra; raises where a site was lost."""
         missing = np.setdiff1d(used, self.simplices)
         if len(missing):
             msg = (
-                f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation does "
-                f"not decide this set. Try another seed, or dtype='float64'"
+                f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation "
+                f"does not decide this set. Try another seed, or dtype='float64'"
             )
             raise InconsistencyError(msg, len(missing))
-        return _topology.open_edges(self.convex_hull)
+        corners = normalise(self.points)[self.simplices]
+        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1])
+        return _topology.open_edges(self.convex_hull) + int((volumes <= 0).sum())
 
     @cached_property
     def convex_hull(self) -> np.ndarray:
@@ -189,6 +195,12 @@ def _check_dtype(dtype: Any) -> np.dtype:
         msg = f"dtype must be float64 or float32, got {dtype!r}"
         raise ValueError(msg)
     return working
+
+
+def _check_seed(seed: Any) -> None:
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        msg = f"seed must be an integer that is not negative, got {seed!r}"
+        raise ValueError(msg)
 
 
 def _prepare(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -93,24 +93,24 @@ def draw(
     last = max(1, int(np.max(tri.iteration, initial=1)))
 
     # a strip on the right holds the colour bar
-    bar, dpi = 0.11 * width, 100
+    bar, dpi, size = 0.11 * width, 100, height / 65
     whole = width * len(views) + bar
     figure = mpl.figure.Figure(figsize=(whole / dpi, height / dpi), dpi=dpi, facecolor="white")
     for k, view in enumerate(views):
-        paint(tri, figure.add_axes(((k + 0.02) * width / whole, 0.02, 0.96 * width / whole, 0.92)), view)
+        ax = figure.add_axes(((k + 0.02) * width / whole, 0.02, 0.96 * width / whole, 0.92))
+        paint(tri, ax, view, title_size=size)
     colors = mpl.colors.ListedColormap(_palette(mpl, last))
     norm = mpl.colors.BoundaryNorm(np.arange(0.5, last + 1), last)
     axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
     ticks = range(1, last + 1, -(-last // 12))
     scale = figure.colorbar(mpl.cm.ScalarMappable(norm, colors), cax=axes, ticks=ticks)
-    size = height / 75
-    scale.set_label("found in iteration", size=size, labelpad=size / 2)
+    scale.set_label("found in iteration", size=size, labelpad=size)
     scale.ax.tick_params(labelsize=size, length=0)
     scale.outline.set_visible(False)
     figure.savefig(path)
 
 
-def paint(tri: Any, ax: Axes, view: View = View()) -> None:  # noqa: B008  frozen
+def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:  # noqa: B008
     """Paint a triangulation on matplotlib axes, which it clears of ticks and frame.
 
     Parameters
@@ -119,6 +119,8 @@ def paint(tri: Any, ax: Axes, view: View = View()) -> None:  # noqa: B008  froze
         Anything with ``points``, ``simplices`` and ``iteration``.
     ax : matplotlib.axes.Axes
     view : View
+    title_size : float
+        In points.
 
     Raises
     ------
@@ -164,7 +166,7 @@ def paint(tri: Any, ax: Axes, view: View = View()) -> None:  # noqa: B008  froze
     ax.set(xlim=(left, right), ylim=(low, high), aspect="equal")
     ax.margins(0.02)
     ax.axis("off")
-    ax.set_title(view.title, size=ax.figure.get_figheight() * 1.6)
+    ax.set_title(view.title, size=title_size)
 
 
 def check_picture_path(path: str | Path) -> Path:

@@ -14,13 +14,13 @@ from ._machine import is_vector
 def composed(function: Callable) -> Callable:
     """Enter all steps of ``function`` in the ledger under its name.
 
-    The machine is that of the first vector among the arguments; outermost names count, so a `pack` that
-    calls `scan` is entered as "pack".
+    The machine is that of the first vector among the arguments; outermost names count, so a `union` that
+    calls `sort` is entered as "union".
     """
 
     @wraps(function)
     def run(*args: Any, **kwargs: Any) -> Any:
-        for leaf in jax.tree.leaves(args, is_leaf=is_vector):
+        for leaf in jax.tree.leaves((args, kwargs), is_leaf=is_vector):
             if is_vector(leaf):
                 if leaf.machine.ledger is None:
                     break

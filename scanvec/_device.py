@@ -11,8 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _local
-from ._machine import SMALLEST_BLOCK, Machine, round_up
-from ._monoid import COPY, Monoid
+from ._machine import SMALLEST_BLOCK, Machine, check_size, round_up
+from ._monoid import ONE_SIDED, Monoid
 from ._vector import Vector
 
 
@@ -37,6 +37,7 @@ class Device(Machine):
         return np.asarray(v._block)[: len(v)].copy()
 
     def iota(self, n: int) -> Vector:
+        check_size(n)
         with jax.enable_x64(True):
             return Vector(self, _iota(*self._shape(n)), n)
 
@@ -49,15 +50,8 @@ class Device(Machine):
     def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any:
         return _scan(op, exclusive, backward, record, heads, np.int32(n))
 
-    def _get(
-        self, record: Any, index: Any, where: Any, otherwise: Any, n: int, m: int
-    ) -> tuple[Any, Any]:
-        return _get(record, index, where, otherwise, np.int32(n), np.int32(m))
-
-    def _send(
-        self, op: Monoid, record: Any, index: Any, into: Any, where: Any, n: int, m: int
-    ) -> tuple[Any, Any]:
-        return _send(op, record, index, into, where, np.int32(n), np.int32(m))
+    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any]:
+        return _route(index, where, np.int32(n))
 
 
 @partial(jax.jit, static_argnums=0)
@@ -79,7 +73,7 @@ def _scan(op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, 
     if backward and flags is not None:
         # going backward, segments begin at their last elements: where the next one is a head
         flags = jnp.append(flags[1:], False)
-    if op is COPY:
+    if op in ONE_SIDED:
         first = index == (n - 1 if backward else 0)
         flags = first if flags is None else flags | first
     if backward:
@@ -94,24 +88,9 @@ def _scan(op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, 
 
 
 @jax.jit
-def _get(record: Any, index: Any, where: Any, otherwise: Any, n: Any, m: Any) -> tuple[Any, Any]:
-    active = jnp.arange(index.size, dtype=jnp.int32) < m
-    if where is not None:
-        active &= where
-    place = jnp.where(active, jnp.clip(index, 0, jnp.maximum(n - 1, 0)).astype(jnp.int32), 0)
-    out = jax.tree.map(lambda x: jnp.where(active, x[place], jnp.asarray(otherwise, x.dtype)), record)
-    return out, jnp.stack(_local.span(index, active))
-
-
-@partial(jax.jit, static_argnums=0)
-def _send(
-    op: Monoid, record: Any, index: Any, into: Any, where: Any, n: Any, m: Any
-) -> tuple[Any, Any]:
-    size = jax.tree.leaves(into)[0].size
+def _route(index: Any, where: Any, n: Any) -> tuple[Any, Any]:
     active = jnp.arange(index.size, dtype=jnp.int32) < n
     if where is not None:
         active &= where
-    place = jnp.where(active, jnp.clip(index, 0, size - 1).astype(jnp.int32), size)
-    out = jax.tree.map(lambda r, x: _local.scatter(op, r, place, x), into, record)
-    facts = _local.span(index, active) + _local.collisions(op, place, size)
-    return out, jnp.stack([x.astype(jnp.int64) for x in facts])
+    facts = jnp.stack(_local.span(index, active))
+    return jnp.where(active, index.astype(jnp.int32), _local.NOWHERE), facts

@@ -142,7 +142,9 @@ class Ledger:
             groups.setdefault(tuple(getattr(e, k) if k in by else "" for k in allowed), []).append(e)
         return [
             Row(
-                *key,
+                phase=phase,
+                operation=operation,
+                primitive=primitive,
                 steps=len(es),
                 elements=sum(e.elements for e in es),
                 vp_steps=sum(e.vp_ratio for e in es),
@@ -150,7 +152,7 @@ class Ledger:
                 messages=sum(e.messages for e in es),
                 busiest=sum(e.busiest for e in es),
             )
-            for key, es in groups.items()
+            for (phase, operation, primitive), es in groups.items()
         ]
 
     def __str__(self) -> str:

@@ -14,10 +14,16 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from ._monoid import Monoid
+from ._monoid import ADD, AND, COPY, MAX, MIN, MUL, OR, Monoid
 
-# What permute asks of `scatter`: indices are known to be distinct.
+# The place of elements outside the context: beyond every block.
+NOWHERE = 2**31 - 1
+
+# What permute asks of `put`: places are checked to be distinct.
 UNIQUE = Monoid("unique", lambda a, b: b, lambda dtype: 0)
+
+# What `scatter` can do, which is what XLA's scatters can.
+COMBINERS = (UNIQUE, ADD, MUL, MIN, MAX, AND, OR, COPY)
 
 
 def identity_like(op: Monoid, record: Any) -> Any:
@@ -56,6 +62,10 @@ def map_elements(fn: Callable, args: Any, where: Any, otherwise: Any) -> Any:
                 name = getattr(fn, "__name__", repr(fn))
                 msg = f"map: {name} returned shape {np.shape(leaf)} for one element; it must return scalars"
                 raise TypeError(msg)
+            if jnp.iscomplexobj(leaf):
+                name = getattr(fn, "__name__", repr(fn))
+                msg = f"map: {name} returned a complex number; return a record of its two parts"
+                raise TypeError(msg)
         return out
 
     dimensions = max(map(jnp.ndim, jax.tree.leaves((args, where, otherwise))))
@@ -65,7 +75,11 @@ def map_elements(fn: Callable, args: Any, where: Any, otherwise: Any) -> Any:
     out = checked(*args)
     if where is None:
         return out
-    if jax.tree.structure(otherwise) != jax.tree.structure(out):
+    got, want = jax.tree.structure(otherwise), jax.tree.structure(out)
+    if not jax.tree_util.all_leaves([otherwise]) and got != want:
+        msg = f"map: `otherwise` is a record {got}, the result {want}; give one like the result or a scalar"
+        raise TypeError(msg)
+    if got != want:
         otherwise = jax.tree.map(lambda _: otherwise, out)  # one scalar for all leaves
     return jax.tree.map(lambda x, y: jnp.where(where, x, jnp.asarray(y, x.dtype)), out, otherwise)
 
@@ -82,7 +96,7 @@ def span(index: jax.Array, active: jax.Array) -> list[jax.Array]:
 
 
 def inclusive_scan(op: Monoid, record: Any, flags: jax.Array | None) -> tuple[Any, jax.Array | None]:
-    """Inclusive scan along the last axis, restarting where ``flags`` is set; also the running OR of ``flags``.
+    """Inclusive scan along the last axis, restarting where ``flags`` is set; and the running OR of ``flags``.
 
     Recursive doubling (Hillis and Steele 1986): log2(n) sweeps. On a CPU that compiles ten times faster than
     a work-efficient tree and, as every sweep is one wide vector operation, runs no slower.
@@ -103,44 +117,58 @@ def inclusive_scan(op: Monoid, record: Any, flags: jax.Array | None) -> tuple[An
     return lax.fori_loop(0, sweeps, sweep, (record, flags))
 
 
-def scatter(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) -> jax.Array:
-    """``into`` (flat) with ``values`` combined in at ``target``; a target of ``into.size`` drops the value."""
+@jax.jit
+def take(block: jax.Array, place: jax.Array, otherwise: Any) -> jax.Array:
+    """The elements of a block at flat places, ``otherwise`` where the place is `NOWHERE`."""
+    found = block.reshape(-1)[jnp.minimum(place, block.size - 1)]
+    return jnp.where(place < NOWHERE, found, jnp.asarray(otherwise, block.dtype))
+
+
+@partial(jax.jit, static_argnums=0)
+def put(op: Monoid, into: jax.Array, place: jax.Array, values: jax.Array) -> jax.Array:
+    """A block with ``values`` combined in at flat places."""
+    return _scatter(op, into.reshape(-1), place.reshape(-1), values.reshape(-1)).reshape(into.shape)
+
+
+def _scatter(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) -> jax.Array:
+    """``into`` (flat) with ``values`` combined in at ``target``; a target beyond it drops the value."""
     ref = into.at[target]
     if op is UNIQUE:
         return ref.set(values, mode="drop")
-    if op.name in ("add", "mul"):
+    if op in (ADD, MUL):
         return getattr(ref, op.name)(values, mode="drop")
-    if op.name in ("min", "max"):
+    if op in (MIN, MAX):
         if into.dtype == bool:
             out = into.astype(jnp.uint8)
             out = getattr(out.at[target], op.name)(values.astype(jnp.uint8), mode="drop")
             return out.astype(bool)
         return getattr(ref, op.name)(values, mode="drop")
-    if op.name == "copy":
+    if op == COPY:
         # the sender of lowest index wins, whatever the machine
         sender = jnp.arange(target.size, dtype=jnp.int32)
         nobody = jnp.int32(target.size)
         first = jnp.full(into.shape, nobody).at[target.ravel()].min(sender, mode="drop")
         taken = values.ravel()[jnp.minimum(first, target.size - 1)]
         return jnp.where(first < nobody, taken, into)
-    if op.name in ("and", "or"):
+    if op in (AND, OR):
         return _scatter_bits(op, into, target, values)
-    msg = f"send: the operator {op.name} cannot combine a concurrent write; use one of add, mul, min, max, and, or, copy"
+    msg = (
+        f"send: the operator {op.name} cannot combine a concurrent write; "
+        f"use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY"
+    )
     raise TypeError(msg)
 
 
-def collisions(op: Monoid, target: jax.Array, size: int) -> list[jax.Array]:
-    """For a permutation: how many elements the most wanted place gets, and that place. Else zeros."""
-    if op is not UNIQUE:
-        return [jnp.int32(0), jnp.int32(0)]
-    count = jnp.zeros(size, jnp.int32).at[target].add(1, mode="drop")
-    worst = jnp.argmax(count).astype(jnp.int32)
-    return [count[worst], worst]
+@jax.jit
+def most_hits(into: jax.Array, place: jax.Array) -> jax.Array:
+    """How many elements go to the place of ``into`` that is wanted most."""
+    count = jnp.zeros(into.size, jnp.int32).at[place.reshape(-1)].add(1, mode="drop")
+    return jnp.max(count)
 
 
 def _scatter_bits(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) -> jax.Array:
     # XLA scatters no bitwise operator; a bit plane at a time, AND is min and OR is max
-    mode = "min" if op.name == "and" else "max"
+    mode = "min" if op == AND else "max"
     if into.dtype == bool:
         plane = into.astype(jnp.uint8)
         plane = getattr(plane.at[target], mode)(values.astype(jnp.uint8), mode="drop")

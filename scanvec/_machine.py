@@ -1,4 +1,4 @@
-"""What a machine supplies: elementwise maps, scans, gets and sends. Everything else is written from these four."""
+"""What a machine supplies: maps, scans, gets and sends. Everything else is written from these four."""
 
 from __future__ import annotations
 
@@ -38,11 +38,19 @@ def check_alike(vectors: list[Vector]) -> None:
     first = vectors[0]
     for v in vectors[1:]:
         if v.machine is not first.machine:
-            msg = f"vectors live on different machines: {first.machine!r} and {v.machine!r}; move one through to_numpy"
+            msg = (
+                f"vectors live on different machines: {first.machine!r} and {v.machine!r}; "
+                f"move one through to_numpy"
+            )
             raise ValueError(msg)
         if len(v) != len(first):
             msg = f"vectors have different lengths: {len(first)} and {len(v)}"
             raise ValueError(msg)
+
+
+def structure_of(record: Any) -> Any:
+    """How a record's vectors hang together, for comparison."""
+    return jax.tree.structure(record, is_leaf=is_vector)
 
 
 def machine_of(record: Any) -> Machine:
@@ -91,24 +99,36 @@ class Machine(abc.ABC):
         if array.ndim != 1:
             msg = f"a vector takes a one-dimensional array, got shape {array.shape}; use one vector a column"
             raise ValueError(msg)
-        if array.dtype.kind not in "biuf" or array.dtype.itemsize > 8:
-            msg = f"a vector takes bool, int, uint or float elements of at most 64 bits, got {array.dtype}"
-            raise TypeError(msg)
-        if len(array) > LARGEST_VECTOR:
-            msg = f"a vector takes at most 2^31 - 1 elements, got {len(array)}"
-            raise ValueError(msg)
+        _check_dtype(array.dtype)
+        check_size(len(array))
         with jax.enable_x64(True):
             return Vector(self, self._load(array.astype(array.dtype.newbyteorder("="))), len(array))
 
     def full(self, n: int, value: Any, dtype: Any) -> Vector:
-        """n elements equal to ``value``."""
+        """n elements equal to ``value``. No step.
+
+        Raises
+        ------
+        ValueError
+            If n is not in 0 .. 2^31 - 1.
+        TypeError
+            If ``dtype`` is not one that `vector` takes.
+        """
+        _check_dtype(np.dtype(dtype))
+        check_size(n)
         with jax.enable_x64(True):
             shape = self._shape(n)
             return Vector(self, jax.device_put(np.full(shape, value, dtype)), n)
 
     @abc.abstractmethod
     def iota(self, n: int) -> Vector:
-        """r[i] = i as int32: each element's own index."""
+        """r[i] = i as int32: each element's own index. One step, n elements.
+
+        Raises
+        ------
+        ValueError
+            If n is not in 0 .. 2^31 - 1.
+        """
 
     @abc.abstractmethod
     def to_numpy(self, v: Vector) -> np.ndarray:
@@ -140,9 +160,7 @@ class Machine(abc.ABC):
 
     # the four primitives
 
-    def map(
-        self, fn: Callable, *args: Any, where: Vector | None = None, otherwise: Any = None
-    ) -> Any:
+    def map(self, fn: Callable, *args: Any, where: Vector | None = None, otherwise: Any = None) -> Any:
         """Elementwise under a context: r[i] = fn(a[i], b[i], ...) where where[i], else otherwise[i].
 
         One step, n elements.
@@ -164,16 +182,18 @@ class Machine(abc.ABC):
         Raises
         ------
         TypeError
-            If no argument is a vector, ``fn`` does not return scalars, or ``where`` is not boolean.
+            If no argument is a vector or one is an array, ``fn`` does not return real scalars, or ``where``
+            is not boolean.
         ValueError
             If lengths or machines differ.
         """
-        vectors = [x for x in jax.tree.leaves((args, otherwise), is_leaf=is_vector) if is_vector(x)]
+        vectors = _vectors_and_scalars(args)
         if not vectors:
             msg = "map needs at least one Vector among its arguments"
             raise TypeError(msg)
+        vectors += _vectors_and_scalars(otherwise)
         if where is not None:
-            _check_flags(where, "map: where")
+            check_flags(where, "map: where")
             vectors.append(where)
             if otherwise is None:
                 msg = "map under a context needs `otherwise`: what elements outside the context get"
@@ -207,7 +227,7 @@ class Machine(abc.ABC):
         for v in vectors:
             op.check(v.dtype, "scan")
         if heads is not None:
-            _check_flags(heads, "scan: heads")
+            check_flags(heads, "scan: heads")
             check_alike([vectors[0], heads])
         n = len(vectors[0])
         with jax.enable_x64(True):
@@ -229,20 +249,15 @@ class Machine(abc.ABC):
         vectors = vectors_of(record)
         index = _check_index(index, vectors[0].machine, "get")
         if where is not None:
-            _check_flags(where, "get: where")
+            check_flags(where, "get: where")
             check_alike([index, where])
-        n, m = len(vectors[0]), len(index)
+        n, m = len(index), len(vectors[0])
         with jax.enable_x64(True):
-            out, facts = self._get(blocks_of(record), index._block, blocks_of(where), otherwise, n, m)
-            least, greatest, *loads = np.asarray(facts).tolist()
-            if least < 0 or greatest >= n:
-                _out_of_range("get", least, greatest, n)
-            self._charge("get", m, loads, vectors)
-            return self._wrap(out, m)
+            place = self._routed("get", index, where, n, m, vectors)
+            out = jax.tree.map(lambda v: _local.take(v._block, place, otherwise), record, is_leaf=is_vector)
+            return self._wrap(out, n)
 
-    def send(
-        self, record: Any, index: Vector, op: Monoid, into: Any, *, where: Vector | None = None
-    ) -> Any:
+    def send(self, record: Any, index: Vector, op: Monoid, into: Any, *, where: Vector | None = None) -> Any:
         """Concurrent write: r = into, then for every i with where[i]: r[index[i]] = op(r[index[i]], v[i]).
 
         ``COPY`` replaces: of several senders to one place the one of lowest index wins. The order of other
@@ -263,9 +278,12 @@ class Machine(abc.ABC):
         index = _check_index(index, vectors[0].machine, "send")
         check_alike([vectors[0], index] + ([] if where is None else [where]))
         if where is not None:
-            _check_flags(where, "send: where")
+            check_flags(where, "send: where")
         if places[0].machine is not vectors[0].machine:
             check_alike([vectors[0], places[0]])
+        if structure_of(record) != structure_of(into):
+            msg = f"send: a record {structure_of(record)} cannot go into a record {structure_of(into)}"
+            raise ValueError(msg)
         if [v.dtype for v in vectors] != [v.dtype for v in places]:
             got, want = [str(v.dtype) for v in vectors], [str(v.dtype) for v in places]
             msg = f"send: elements of {', '.join(got)} cannot go into {', '.join(want)}; convert with astype"
@@ -274,20 +292,24 @@ class Machine(abc.ABC):
             op.check(v.dtype, "send")
         n, m = len(vectors[0]), len(places[0])
         with jax.enable_x64(True):
-            out, facts = self._send(
-                op, blocks_of(record), index._block, blocks_of(into), blocks_of(where), n, m
+            place = self._routed("send", index, where, n, m, vectors)
+            if op is _local.UNIQUE:
+                _check_distinct(index, where, place, places[0]._block)
+            out = jax.tree.map(
+                lambda r, v: _local.put(op, r._block, place, v._block), into, record, is_leaf=is_vector
             )
-            least, greatest, hits, place, *loads = np.asarray(facts).tolist()
-            if least < 0 or greatest >= m:
-                _out_of_range("send", least, greatest, m)
-            if op is _local.UNIQUE and hits > 1:
-                msg = (
-                    f"permute: {hits} elements are sent to position {place}; a permutation takes distinct "
-                    f"indices. For a concurrent write use scanvec.send with a combining operator"
-                )
-                raise ValueError(msg)
-            self._charge("send", max(n, m), loads, vectors)
             return self._wrap(out, m)
+
+    def _routed(
+        self, what: str, index: Vector, where: Vector | None, n: int, m: int, vectors: list[Vector]
+    ) -> jax.Array:
+        """The flat places that n indices name in a vector of m elements, checked and charged."""
+        place, facts = self._route(what, index._block, blocks_of(where), n, m)
+        least, greatest, *loads = np.asarray(facts).tolist()
+        if least < 0 or greatest >= m:
+            _out_of_range(what, least, greatest, m)
+        self._charge(what, n if what == "get" else max(n, m), loads, vectors)
+        return place
 
     def _wrap(self, blocks: Any, n: int) -> Any:
         return jax.tree.map(lambda b: Vector(self, b, n), blocks)
@@ -299,14 +321,13 @@ class Machine(abc.ABC):
     def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any: ...
 
     @abc.abstractmethod
-    def _get(
-        self, record: Any, index: Any, where: Any, otherwise: Any, n: int, m: int
-    ) -> tuple[Any, Any]: ...
+    def _route(
+        self, what: str, index: jax.Array, where: jax.Array | None, n: int, m: int
+    ) -> tuple[jax.Array, jax.Array]:
+        """Flat place in a block of m elements for each of n indices, and facts: least, greatest, loads.
 
-    @abc.abstractmethod
-    def _send(
-        self, op: Monoid, record: Any, index: Any, into: Any, where: Any, n: int, m: int
-    ) -> tuple[Any, Any]: ...
+        An element outside the context gets a place beyond every block, `_local.NOWHERE`.
+        """
 
     # the ledger; nothing happens on machines that keep none
 
@@ -332,7 +353,29 @@ class Machine(abc.ABC):
                 yield
 
 
-def _check_flags(v: Any, what: str) -> None:
+def _vectors_and_scalars(args: Any) -> list[Vector]:
+    """The vectors among the leaves, all others of which must be scalars."""
+    leaves = jax.tree.leaves(args, is_leaf=is_vector)
+    for x in leaves:
+        if not is_vector(x) and np.ndim(x):
+            msg = f"map takes Vectors and scalars, got an array of shape {np.shape(x)}; use machine.vector"
+            raise TypeError(msg)
+    return [x for x in leaves if is_vector(x)]
+
+
+def _check_dtype(dtype: np.dtype) -> None:
+    if dtype.kind not in "biuf" or dtype.itemsize > 8:
+        msg = f"a vector takes bool, int, uint or float elements of at most 64 bits, got {dtype}"
+        raise TypeError(msg)
+
+
+def check_size(n: int) -> None:
+    if not 0 <= n <= LARGEST_VECTOR:
+        msg = f"a vector takes 0 .. 2^31 - 1 elements, got {n}"
+        raise ValueError(msg)
+
+
+def check_flags(v: Any, what: str) -> None:
     if not is_vector(v) or v.dtype != bool:
         got = v.dtype if is_vector(v) else type(v).__name__
         msg = f"{what} must be a Vector of bool, got {got}"
@@ -351,5 +394,18 @@ def _check_index(index: Any, machine: Machine, what: str) -> Vector:
 
 
 def _out_of_range(what: str, least: int, greatest: int, n: int) -> None:
-    msg = f"{what}: indices from {least} to {greatest}, but the vector has {n} elements (0 .. {n - 1})"
+    indices = f"0 .. {n - 1}" if n else "no index"
+    msg = f"{what}: indices from {least} to {greatest}, but the vector has {n} elements ({indices})"
     raise IndexError(msg)
+
+
+def _check_distinct(index: Vector, where: Vector | None, place: jax.Array, into: jax.Array) -> None:
+    hits = int(_local.most_hits(into, place))
+    if hits > 1:
+        targets = index.to_numpy() if where is None else index.to_numpy()[where.to_numpy()]
+        values, counts = np.unique(targets, return_counts=True)
+        msg = (
+            f"permute: {hits} elements are sent to position {values[counts.argmax()]}; a permutation takes "
+            f"distinct indices. For a concurrent write use scanvec.send with a combining operator"
+        )
+        raise ValueError(msg)

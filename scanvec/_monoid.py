@@ -30,7 +30,8 @@ class Monoid:
         ``fn(a, b)``: traceable by JAX, associative, elementwise on arrays of any shape. ``a`` and ``b`` are
         what one element of the scanned record is: an array, or a pytree of arrays.
     identity
-        ``identity(dtypes)``: the element with ``fn(identity, a) == a``, given the dtype of each leaf.
+        ``identity(dtypes)``: the element with ``fn(identity, a) == fn(a, identity) == a``, given the dtype
+        of each leaf.
     kinds
         NumPy dtype kinds that it takes ("b" bool, "i" int, "u" unsigned, "f" float).
     """
@@ -81,23 +82,33 @@ def _left(a: Any, b: Any) -> Any:
 
 
 def _argmin(a: tuple, b: tuple) -> tuple:
-    # strict, so that of equal keys the one further left is kept
-    take_b = b[0] < a[0]
+    # Strict, so that of equal keys the one further left is kept. NaN is less than any number, as it is to
+    # minimum: were it neither less nor greater, the operator would not be associative.
+    a_is_nan, b_is_nan = a[0] != a[0], b[0] != b[0]
+    take_b = (b[0] < a[0]) | (b_is_nan & ~a_is_nan)
     return jax.tree.map(lambda u, v: jnp.where(take_b, v, u), a, b)
 
 
-ADD = Monoid("add", jnp.add, lambda dtype: 0, "iuf")
-MUL = Monoid("mul", jnp.multiply, lambda dtype: 1, "iuf")
-MIN = Monoid("min", jnp.minimum, highest)
-MAX = Monoid("max", jnp.maximum, lowest)
-AND = Monoid("and", jnp.bitwise_and, _all_ones, "biu")
-OR = Monoid("or", jnp.bitwise_or, lambda dtype: 0, "biu")
+def _of_leaves(name: str, fn: Callable, identity: Callable, kinds: str = "biuf") -> Monoid:
+    """The operator that combines a record leaf by leaf."""
+    return Monoid(
+        name, lambda a, b: jax.tree.map(fn, a, b), lambda dtypes: jax.tree.map(identity, dtypes), kinds
+    )
 
-# The copy of a segment's first element. It has no two-sided identity; machines start it with a head flag at
-# the first element, and what an exclusive scan leaves at a head is zero.
-COPY = Monoid("copy", _left, lambda dtype: 0)
+
+ADD = _of_leaves("add", jnp.add, lambda dtype: 0, "iuf")
+MUL = _of_leaves("mul", jnp.multiply, lambda dtype: 1, "iuf")
+MIN = _of_leaves("min", jnp.minimum, highest)
+MAX = _of_leaves("max", jnp.maximum, lowest)
+AND = _of_leaves("and", jnp.bitwise_and, _all_ones, "biu")
+OR = _of_leaves("or", jnp.bitwise_or, lambda dtype: 0, "biu")
+
+# The copy of a segment's first element; what an exclusive scan leaves at a head is zero.
+COPY = _of_leaves("copy", _left, lambda dtype: 0)
 
 # On records (key, payload): the pair of least key, of equal keys the leftmost.
-ARGMIN = Monoid(
-    "argmin", _argmin, lambda dtypes: (highest(dtypes[0]), jax.tree.map(lambda _: 0, dtypes[1]))
-)
+ARGMIN = Monoid("argmin", _argmin, lambda dtypes: (highest(dtypes[0]), jax.tree.map(lambda _: 0, dtypes[1])))
+
+# Their identities hold on the right only: COPY(0, a) is 0, and ARGMIN((inf, 0), (inf, 7)) loses the 7. So
+# machines start their scans with a head flag at the first element, and nothing is combined from its left.
+ONE_SIDED = (COPY, ARGMIN)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import jax
-import numpy as np
 
 from . import _local
 from ._composed import composed
-from ._machine import is_vector, length_of, machine_of, vectors_of
+from ._machine import check_alike, check_flags, is_vector, length_of, machine_of, structure_of, vectors_of
 from ._monoid import ADD, Monoid
 from ._segments import Segments
 from ._vector import Vector
@@ -59,7 +58,7 @@ def _blank(record: Any, n: int) -> Any:
 
 @composed
 def pack(record: Any, flags: Vector) -> Any:
-    """The elements whose flag is set, in order. Five steps, n elements."""
+    """The elements whose flag is set, in order. Four steps, n elements."""
     ends = _count(flags)
     kept = int(flags.machine.item(ends, -1)) if len(flags) else 0
     return machine_of(record).send(record, ends - 1, _local.UNIQUE, _blank(record, kept), where=flags)
@@ -67,22 +66,19 @@ def pack(record: Any, flags: Vector) -> Any:
 
 def _count(flags: Vector) -> Vector:
     """r[i] = flags set in v[0], ..., v[i]."""
-    if not is_vector(flags) or flags.dtype != bool:
-        got = flags.dtype if is_vector(flags) else type(flags).__name__
-        msg = f"expected flags, a Vector of bool, got {got}"
-        raise TypeError(msg)
+    check_flags(flags, "the flags")
     return flags.machine.scan(flags, ADD, exclusive=False)
 
 
 @composed
 def pack_index(flags: Vector) -> Vector:
-    """The indices at which the flag is set, in order, int32."""
+    """The indices at which the flag is set, in order, int32. Five steps, n elements."""
     return pack(flags.machine.iota(len(flags)), flags)
 
 
 @composed
 def split(record: Any, flags: Vector) -> Any:
-    """The elements whose flag is clear, in order, then those whose flag is set. Six steps, n elements.
+    """The elements whose flag is clear, in order, then those whose flag is set. Five steps, n elements.
 
     Blelloch 1990, section 3.4.1: the step of the radix sort.
     """
@@ -102,26 +98,28 @@ def _split_target(flag: Any, ups: Any, i: Any, clear: Any) -> Any:
 
 @composed
 def append(first: Any, second: Any) -> Any:
-    """r = v, then w: two records of one structure and dtypes. Three steps, len(v) + len(w) elements.
+    """r = v, then w: two records of one structure and dtypes. Five steps, len(v) + len(w) elements.
 
     Raises
     ------
     ValueError
-        If structures or dtypes differ.
+        If structures, dtypes or machines differ.
     """
     n, m = length_of(first), length_of(second)
     machine = machine_of(first)
-    if jax.tree.structure(first, is_leaf=is_vector) != jax.tree.structure(second, is_leaf=is_vector):
+    if machine_of(second) is not machine:
+        check_alike([*vectors_of(first), *vectors_of(second)])
+    if structure_of(first) != structure_of(second):
         msg = "append: the two records have different structures"
+        raise ValueError(msg)
+    if [v.dtype for v in vectors_of(first)] != [v.dtype for v in vectors_of(second)]:
+        msg = "append: the two records have different dtypes; convert with astype"
         raise ValueError(msg)
     longer = _blank(first, n + m)
     if n:
         longer = machine.send(first, machine.iota(n), _local.UNIQUE, longer)
     if m:
         longer = machine.send(second, machine.iota(m) + n, _local.UNIQUE, longer)
-    elif [v.dtype for v in vectors_of(first)] != [v.dtype for v in vectors_of(second)]:
-        msg = "append: the two records have different dtypes; convert with astype"
-        raise ValueError(msg)
     return longer
 
 
@@ -129,12 +127,12 @@ def append(first: Any, second: Any) -> Any:
 def distribute(record: Any, counts: Vector) -> tuple[Any, Segments]:
     """counts[i] copies of v[i], for i = 0, 1, ...; and the segments that the copies of one element form.
 
-    Blelloch 1990, section 3.6 (allocation). Eight steps, over n and sum(counts) elements.
+    Blelloch 1990, section 3.6 (allocation). Twelve steps, over n and sum(counts) elements.
 
     Raises
     ------
     ValueError
-        If a count is negative or there is not one for each element.
+        If a count is negative, there is not one for each element, or they add up to more than 2^31 - 1.
     """
     if len(counts) != length_of(record):
         msg = f"distribute: {length_of(record)} elements, but {len(counts)} counts"

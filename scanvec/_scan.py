@@ -11,7 +11,7 @@ import jax
 import numpy as np
 
 from ._composed import composed
-from ._machine import is_vector, length_of, machine_of, vectors_of
+from ._machine import check_flags, is_vector, length_of, machine_of, vectors_of
 from ._monoid import ADD, COPY, MUL, Monoid
 from ._segments import Segments
 from ._vector import Vector
@@ -68,9 +68,7 @@ def copy_scan(record: Any, segments: Segments | None = None) -> Any:
 @composed
 def enumerate(flags: Vector, segments: Segments | None = None) -> Vector:  # Blelloch's name
     """r[i] = how many flags are set before i (in i's segment), as int32. Two steps, n elements."""
-    if flags.dtype != bool:
-        msg = f"enumerate takes a Vector of bool, got {flags.dtype}"
-        raise TypeError(msg)
+    check_flags(flags, "enumerate: the flags")
     return scan(flags.astype(np.int32), ADD, segments)
 
 
@@ -79,14 +77,13 @@ def reduce(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
     """op(v[0], ..., v[n-1]); with segments, a vector of one such value a segment.
 
     Without segments the result is a NumPy scalar on the host (a record of them for a record). An empty
-    vector or segment gives the identity. One step, n elements; three with segments.
+    vector or segment gives the identity. One step, n elements; five with segments, and one more for each
+    further vector of a record. Booleans are added and multiplied as int32, which is one more step.
     """
     vectors = vectors_of(record)
     machine, n = vectors[0].machine, len(vectors[0])
     if segments is None and n:
-        return jax.tree.map(
-            lambda v: machine.item(v, n - 1), scan_inclusive(record, op), is_leaf=is_vector
-        )
+        return jax.tree.map(lambda v: machine.item(v, n - 1), scan_inclusive(record, op), is_leaf=is_vector)
     if op in (ADD, MUL):
         record = jax.tree.map(
             lambda v: v.astype(np.int32) if v.dtype == bool else v, record, is_leaf=is_vector

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 
 from . import _local
-from ._machine import LARGEST_VECTOR, Machine
+from ._machine import LARGEST_VECTOR, Machine, check_flags
 from ._monoid import ADD, MAX, MIN
 from ._vector import Vector
 
@@ -51,7 +53,7 @@ class Segments:
 
     @classmethod
     def from_lengths(cls, lengths: Vector) -> Segments:
-        """Segments of the given lengths, 0 allowed. Seven steps over n and m elements.
+        """Segments of the given lengths, 0 allowed. Eleven steps over n and m elements.
 
         Raises
         ------
@@ -68,8 +70,8 @@ class Segments:
         if not m:
             empty = machine.full(0, 0, np.int32)
             return cls(machine.full(0, False, bool), empty, empty, empty)
-        # in 64 bits, so that too great a total is seen
-        wide = lengths.astype(np.int64)
+        # in 64 bits and cut off above the largest vector, so that too great a total is seen
+        wide = machine.map(_wide, lengths)
         least = machine.item(machine.scan(wide, MIN, exclusive=False), -1)
         if least < 0:
             msg = f"segment lengths must not be negative, got {least}"
@@ -77,7 +79,7 @@ class Segments:
         ends = machine.scan(wide, ADD, exclusive=False)
         n = int(machine.item(ends, -1))
         if n > LARGEST_VECTOR:
-            msg = f"the segments hold {n} elements; a vector takes at most 2^31 - 1"
+            msg = f"the segments hold {n} elements or more; a vector takes at most 2^31 - 1"
             raise ValueError(msg)
         lengths = lengths.astype(np.int32)
         starts = ends.astype(np.int32) - lengths
@@ -88,17 +90,15 @@ class Segments:
 
     @classmethod
     def from_flags(cls, heads: Vector) -> Segments:
-        """Segments that begin where a flag is set; the first element begins one in any case.
+        """Segments that begin where a flag is set; the first element begins one in any case. Eight steps.
 
         Raises
         ------
         TypeError
             If the flags are not booleans.
         """
+        check_flags(heads, "head flags")
         machine = heads.machine
-        if heads.dtype != bool:
-            msg = f"head flags must be a Vector of bool, got {heads.dtype}"
-            raise TypeError(msg)
         n = len(heads)
         if not n:
             return cls.from_lengths(machine.full(0, 0, np.int32))
@@ -113,7 +113,7 @@ class Segments:
 
     @classmethod
     def from_ids(cls, ids: Vector) -> Segments:
-        """Segments of equal consecutive ids; they are numbered anew from 0."""
+        """Segments of equal consecutive ids; they are numbered anew from 0. Thirteen steps."""
         machine = ids.machine
         n = len(ids)
         if not n:
@@ -122,3 +122,7 @@ class Segments:
         before = machine.get(ids, index - 1, where=index > 0)
         return cls.from_flags(ids != before)
 
+
+def _wide(length: Any) -> Any:
+    too_long = length > min(LARGEST_VECTOR, int(jnp.iinfo(length.dtype).max))
+    return jnp.where(too_long, LARGEST_VECTOR + 1, length.astype(jnp.int64))

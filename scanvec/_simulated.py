@@ -12,8 +12,8 @@ import numpy as np
 
 from . import _local
 from ._ledger import Ledger
-from ._machine import SMALLEST_BLOCK, Machine, round_up
-from ._monoid import COPY, Monoid
+from ._machine import SMALLEST_BLOCK, Machine, check_size, round_up
+from ._monoid import ONE_SIDED, Monoid
 from ._vector import Vector
 
 
@@ -73,6 +73,7 @@ class Simulated(Machine):
         return np.asarray(v._block)[:, :vp].reshape(-1)[: len(v)].copy()
 
     def iota(self, n: int) -> Vector:
+        check_size(n)
         self._enter("map", n)
         with jax.enable_x64(True):
             return Vector(self, _iota(self._shape(n), np.int32(self.vp_ratio(n))), n)
@@ -82,27 +83,23 @@ class Simulated(Machine):
         return _item(block, np.int32(i // vp), np.int32(i % vp))
 
     def _map(self, fn: Callable, args: Any, where: Any, otherwise: Any, n: int) -> Any:
+        out = _local.map_elements(fn, args, where, otherwise)
         self._enter("map", n)
-        return _local.map_elements(fn, args, where, otherwise)
+        return out
 
     def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any:
         # every processor that holds elements, but the last, passes one partial result on
-        holding = -(-n // self.vp_ratio(n))
+        messages = max(-(-n // self.vp_ratio(n)) - 1, 0)
         size = sum(x.dtype.itemsize for x in jax.tree.leaves(record))
-        self.ledger.record("scan", n, self.vp_ratio(n), max(holding - 1, 0), min(holding - 1, 1), size)
-        return _scan(op, exclusive, backward, record, heads, np.int32(n), np.int32(self.vp_ratio(n)))
+        vp = self.vp_ratio(n)
+        out = _scan(op, exclusive, backward, record, heads, np.int32(n), np.int32(vp))
+        self.ledger.record("scan", n, vp, messages, min(messages, 1), size)
+        return out
 
-    def _get(
-        self, record: Any, index: Any, where: Any, otherwise: Any, n: int, m: int
-    ) -> tuple[Any, Any]:
+    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any]:
+        row = np.int32(self._shape(m)[1])
         vps = np.int32(self.vp_ratio(n)), np.int32(self.vp_ratio(m))
-        return _get(record, index, where, otherwise, np.int32(n), np.int32(m), *vps)
-
-    def _send(
-        self, op: Monoid, record: Any, index: Any, into: Any, where: Any, n: int, m: int
-    ) -> tuple[Any, Any]:
-        vps = np.int32(self.vp_ratio(n)), np.int32(self.vp_ratio(m))
-        return _send(op, record, index, into, where, np.int32(n), np.int32(m), *vps)
+        return _route(what == "get", index, where, np.int32(n), np.int32(m), row, *vps)
 
     def _charge(self, primitive: str, n: int, loads: list[int], vectors: list[Vector]) -> None:
         messages, busiest = loads
@@ -138,9 +135,7 @@ def _item(block: jax.Array, p: Any, j: Any) -> jax.Array:
 
 
 @partial(jax.jit, static_argnums=(0, 1, 2))
-def _scan(
-    op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: Any, vp: Any
-) -> Any:
+def _scan(op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: Any, vp: Any) -> Any:
     shape = jax.tree.leaves(record)[0].shape
     valid = _valid(shape, n, vp)
     index = _indices(shape, vp)
@@ -153,7 +148,7 @@ def _scan(
             jnp.arange(shape[1]) == vp - 1, following, jnp.concatenate([flags[:, 1:], following], 1)
         )
         flags = following & valid
-    if op is COPY:
+    if op in ONE_SIDED:
         first = index == (n - 1 if backward else 0)
         flags = (first & valid) if flags is None else flags | (first & valid)
     if backward:
@@ -176,56 +171,26 @@ def _scan(
     return jax.tree.map(lambda x: x[::-1, ::-1], result) if backward else result
 
 
-def _place(index: jax.Array, n: Any, vp: Any, row: int, active: jax.Array, size: int) -> tuple:
-    """Owner and flat place of each indexed element; inactive ones get the place ``size``."""
-    index = jnp.clip(index, 0, jnp.maximum(n - 1, 0)).astype(jnp.int32)
-    owner = index // vp
-    return owner, jnp.where(active, owner * row + (index - owner * vp), size)
-
-
-@jax.jit
-def _get(
-    record: Any, index: Any, where: Any, otherwise: Any, n: Any, m: Any, vp_n: Any, vp_m: Any
-) -> tuple[Any, Any]:
-    processors, row = jax.tree.leaves(record)[0].shape
-    active = _valid(index.shape, m, vp_m)
-    if where is not None:
-        active &= where
-    owner, place = _place(index, n, vp_n, row, active, 0)
-    out = jax.tree.map(
-        lambda x: jnp.where(active, x.reshape(-1)[place], jnp.asarray(otherwise, x.dtype)), record
-    )
-    remote = active & (owner != jnp.arange(processors, dtype=jnp.int32)[:, None])
-    asked = jnp.sum(remote, 1)
-    answered = _count_by_processor(owner, remote, processors)
-    loads = [2 * jnp.sum(asked), jnp.max(asked + answered)]
-    return out, jnp.stack([x.astype(jnp.int64) for x in _local.span(index, active) + loads])
-
-
 @partial(jax.jit, static_argnums=0)
-def _send(
-    op: Monoid, record: Any, index: Any, into: Any, where: Any, n: Any, m: Any, vp_n: Any, vp_m: Any
+def _route(
+    replies: bool, index: Any, where: Any, n: Any, m: Any, row: Any, vp_n: Any, vp_m: Any
 ) -> tuple[Any, Any]:
-    processors, row = jax.tree.leaves(into)[0].shape
-    size = processors * row
+    """Where n indices lead in a vector of m elements whose blocks have rows of ``row``."""
+    processors = index.shape[0]
     active = _valid(index.shape, n, vp_n)
     if where is not None:
         active &= where
-    owner, place = _place(index, m, vp_m, row, active, size)
-    out = jax.tree.map(
-        lambda r, x: _local.scatter(op, r.reshape(-1), place.reshape(-1), x.reshape(-1)).reshape(r.shape),
-        into,
-        record,
-    )
-    most, worst = _local.collisions(op, place.reshape(-1), size)
-    hits = [most, worst // row * vp_m + worst % row]
+    least, greatest = _local.span(index, active)
+    index = jnp.clip(index, 0, jnp.maximum(m - 1, 0)).astype(jnp.int32)
+    owner = index // vp_m
+    place = jnp.where(active, owner * row + (index - owner * vp_m), _local.NOWHERE)
+    # messages: each processor's own elements that lead elsewhere, and those of others that lead to it
     remote = active & (owner != jnp.arange(processors, dtype=jnp.int32)[:, None])
     sent = jnp.sum(remote, 1)
-    received = _count_by_processor(owner, remote, processors)
-    loads = [jnp.sum(sent), jnp.maximum(jnp.max(sent), jnp.max(received))]
-    return out, jnp.stack([x.astype(jnp.int64) for x in _local.span(index, active) + hits + loads])
-
-
-def _count_by_processor(owner: jax.Array, counted: jax.Array, processors: int) -> jax.Array:
-    place = jnp.where(counted, owner, processors)
-    return jnp.zeros(processors, jnp.int32).at[place.reshape(-1)].add(1, mode="drop")
+    to = jnp.where(remote, owner, processors).reshape(-1)
+    received = jnp.zeros(processors, sent.dtype).at[to].add(1, mode="drop")
+    if replies:
+        loads = [2 * jnp.sum(sent), jnp.max(sent + received)]
+    else:
+        loads = [jnp.sum(sent), jnp.maximum(jnp.max(sent), jnp.max(received))]
+    return place, jnp.stack([x.astype(jnp.int64) for x in [least, greatest, *loads]])

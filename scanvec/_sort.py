@@ -6,10 +6,9 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 
 from ._composed import composed
-from ._machine import is_vector, length_of, machine_of, vectors_of
+from ._machine import length_of, machine_of, vectors_of
 from ._monoid import OR
 from ._move import append, get, pack, permute, split
 from ._segments import Segments
@@ -17,7 +16,10 @@ from ._vector import Vector
 
 
 def sort_bits(x: Any) -> Any:
-    """Unsigned bits that order as the values do: -0.0 equals 0.0, and NaN comes last, as in NumPy."""
+    """Unsigned bits that order as the values do: -0.0 equals 0.0, and NaN comes last, as in NumPy.
+
+    Zero and NaN are told by their bits: on CPUs, XLA's comparisons take subnormal numbers for zero.
+    """
     x = jnp.asarray(x)
     if x.dtype == bool:
         return x.astype(jnp.uint8)
@@ -28,10 +30,12 @@ def sort_bits(x: Any) -> Any:
     top = jnp.asarray(1 << (bits - 1), unsigned)
     if jnp.issubdtype(x.dtype, jnp.signedinteger):
         return jax.lax.bitcast_convert_type(x, unsigned) ^ top
-    x = jnp.where(jnp.isnan(x), jnp.asarray(jnp.nan, x.dtype), jnp.where(x == 0, jnp.zeros_like(x), x))
     u = jax.lax.bitcast_convert_type(x, unsigned)
+    magnitude = u & ~top
     # negative: all bits flipped; others: above all negative ones
-    return jnp.where(u & top != 0, ~u, u | top)
+    ordered = jnp.where((u == magnitude) | (magnitude == 0), magnitude | top, ~u)
+    infinity = jax.lax.bitcast_convert_type(jnp.asarray(jnp.inf, x.dtype), unsigned)
+    return jnp.where(magnitude > infinity, ~jnp.zeros_like(u), ordered)
 
 
 def _bit(u: Any, k: Any) -> Any:

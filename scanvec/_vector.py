@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -61,13 +60,15 @@ class Vector:
         return out if dtype is None else out.astype(dtype)
 
     def __repr__(self) -> str:
-        return f"Vector({np.array2string(self.to_numpy(), threshold=12)}, dtype={self.dtype}, {self.machine!r})"
+        elements = np.array2string(self.to_numpy(), threshold=12)
+        return f"Vector({elements}, dtype={self.dtype}, {self.machine!r})"
 
     def astype(self, dtype: Any) -> Vector:
         """r[i] = v[i] converted as NumPy does it. One elementwise step."""
         return self.machine.map(_cast(np.dtype(dtype)), self)
 
-    # elementwise operators, each one step over n elements
+    # Operators: each is one elementwise step. They are written out, so that type checkers see them.
+
     def __neg__(self) -> Vector:
         return self.machine.map(jnp.negative, self)
 
@@ -77,6 +78,96 @@ class Vector:
     def __abs__(self) -> Vector:
         return self.machine.map(jnp.abs, self)
 
+    def __eq__(self, other: Any) -> Vector:  # type: ignore[override]
+        return self.machine.map(jnp.equal, self, other)
+
+    def __ne__(self, other: Any) -> Vector:  # type: ignore[override]
+        return self.machine.map(jnp.not_equal, self, other)
+
+    def __lt__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.less, self, other)
+
+    def __le__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.less_equal, self, other)
+
+    def __gt__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.greater, self, other)
+
+    def __ge__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.greater_equal, self, other)
+
+    def __add__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.add, self, other)
+
+    def __sub__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.subtract, self, other)
+
+    def __mul__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.multiply, self, other)
+
+    def __truediv__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.true_divide, self, other)
+
+    def __floordiv__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.floor_divide, self, other)
+
+    def __mod__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.remainder, self, other)
+
+    def __pow__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.power, self, other)
+
+    def __and__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_and, self, other)
+
+    def __or__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_or, self, other)
+
+    def __xor__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_xor, self, other)
+
+    def __lshift__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.left_shift, self, other)
+
+    def __rshift__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.right_shift, self, other)
+
+    def __radd__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.add, other, self)
+
+    def __rsub__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.subtract, other, self)
+
+    def __rmul__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.multiply, other, self)
+
+    def __rtruediv__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.true_divide, other, self)
+
+    def __rfloordiv__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.floor_divide, other, self)
+
+    def __rmod__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.remainder, other, self)
+
+    def __rpow__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.power, other, self)
+
+    def __rand__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_and, other, self)
+
+    def __ror__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_or, other, self)
+
+    def __rxor__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.bitwise_xor, other, self)
+
+    def __rlshift__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.left_shift, other, self)
+
+    def __rrshift__(self, other: Any) -> Vector:
+        return self.machine.map(jnp.right_shift, other, self)
+
 
 _CASTS: dict[np.dtype, Any] = {}
 
@@ -84,25 +175,3 @@ _CASTS: dict[np.dtype, Any] = {}
 def _cast(dtype: np.dtype) -> Any:
     # one function object a dtype, so that its compiled kernel is found again
     return _CASTS.setdefault(dtype, lambda x: x.astype(dtype))
-
-
-def _add_operators() -> None:
-    functions = {
-        "add": jnp.add, "sub": jnp.subtract, "mul": jnp.multiply, "truediv": jnp.true_divide,
-        "floordiv": jnp.floor_divide, "mod": jnp.remainder, "pow": jnp.power, "and": jnp.bitwise_and,
-        "or": jnp.bitwise_or, "xor": jnp.bitwise_xor, "lshift": jnp.left_shift, "rshift": jnp.right_shift,
-    }  # fmt: skip
-    for name, fn in functions.items():
-        setattr(Vector, f"__{name}__", lambda self, other, fn=fn: self.machine.map(fn, self, other))
-        setattr(Vector, f"__r{name}__", lambda self, other, fn=fn: self.machine.map(fn, other, self))
-    comparisons = {
-        operator.eq: jnp.equal, operator.ne: jnp.not_equal, operator.lt: jnp.less,
-        operator.le: jnp.less_equal, operator.gt: jnp.greater, operator.ge: jnp.greater_equal,
-    }  # fmt: skip
-    for op, fn in comparisons.items():
-        setattr(
-            Vector, f"__{op.__name__}__", lambda self, other, fn=fn: self.machine.map(fn, self, other)
-        )
-
-
-_add_operators()

@@ -99,6 +99,7 @@ def contains(outer: Box, inner: Box) -> Any:
 
 def extend(dead: Box, target: Box, steps: Any) -> Box:
     """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions."""
+
     def low(d: Any, t: Any) -> Any:
         return jnp.maximum(jnp.minimum(d, t), d - steps)
 

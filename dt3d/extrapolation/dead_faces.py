@@ -1,9 +1,9 @@
 """The dead-face dictionary, and the consistency check that it makes possible.
 
-Teng et al. 1993, section 5.2: every face of a triangulation has at most one tetrahedron on each side. The
-dictionary holds one entry for each side of a facet that has been expanded, found by the facet's three vertices
-in ascending order and the side. It finds new tetrahedra that contradict earlier ones, purges open faces that
-have met, and holds the adjacency of the result.
+Teng et al. 1993, section 5.2: every face of a triangulation has at most one tetrahedron on each side.
+The dictionary holds one entry for each side of a facet that has been expanded, found by the facet's three
+vertices in ascending order and the side. It finds new tetrahedra that contradict
+earlier ones, purges open faces that have met, and holds the adjacency of the result.
 """
 
 from __future__ import annotations
@@ -95,9 +95,7 @@ def distinct(tetrahedra: Tetrahedron) -> Tetrahedron:
     return sv.pack(tetrahedra, holders == machine.iota(len(holders)))
 
 
-def bury(
-    dead: DeadFaces, tetrahedra: Tetrahedron, first: int
-) -> tuple[DeadFaces, Tetrahedron, int]:
+def bury(dead: DeadFaces, tetrahedra: Tetrahedron, first: int) -> tuple[DeadFaces, Tetrahedron, int]:
     """Make the faces of new tetrahedra dead; those that contradict others are left out, and counted.
 
     ``first`` is the number of the first new tetrahedron. Of tetrahedra on one side of a face the first stays.
@@ -109,9 +107,7 @@ def bury(
         entries = len(dead.tetrahedron)
         filled, holders = dictionary.insert(dead.dictionary, machine.map(face_key, faces))
         beaten = holders != machine.iota(len(holders)) + entries
-        refuted = sv.send(
-            beaten, owner, sv.OR, machine.full(len(tetrahedra.a), False, bool)
-        )
+        refuted = sv.send(beaten, owner, sv.OR, machine.full(len(tetrahedra.a), False, bool))
         count = int(sv.reduce(refuted, sv.ADD))
         if not count:
             numbers = owner + first

@@ -1,9 +1,9 @@
 """Dictionaries in the vector model: hash tables filled by concurrent writes.
 
-All keys of a batch claim slots at once: each sends its entry number to its slot with `MIN`, reads the slot back,
-and goes on to the next slot if another key sits there. Equal keys meet in one slot, where the entry of least
-number wins, so the outcome does not depend on the machine. A batch takes a few rounds, each over the keys that
-are still without a slot.
+All keys of a batch claim slots at once: each sends its entry number to its slot with `MIN`, reads the slot
+back, and goes on to the next slot if another key sits there. Equal keys meet in one slot, where the entry of
+least number wins, so the outcome does not depend on the machine. A batch takes a few rounds, each over the
+keys that are still without a slot.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ def empty(machine: sv.Machine, width: int) -> Dictionary:
 def insert(dictionary: Dictionary, keys: Any) -> tuple[Dictionary, sv.Vector]:
     """Add a batch of m keys; they become entries e, e+1, ..., e the number of entries before.
 
-    Also returns, for each key, the entry that holds its slot: the key's own number if it is new, a smaller one
-    if an equal key was there or comes earlier in the batch. A key that is not new leaves an entry unused.
+    Also returns, for each key, the entry that holds its slot: the key's own number if it is new, a smaller
+    one if an equal key was there or comes earlier in the batch. A key that is not new leaves an entry unused.
     """
     machine = dictionary.table.machine
     first = len(dictionary.keys[0])

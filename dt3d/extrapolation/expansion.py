@@ -1,7 +1,7 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is the region in which
-a better site can lie: the part of the best circumsphere in the positive half-space, a spherical cap.
+Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is the region in
+which a better site can lie: the part of the best circumsphere in the positive half-space, a spherical cap.
 """
 
 from __future__ import annotations
@@ -70,7 +70,9 @@ def _region(query: OpenFace, score: Any, grid: Grid) -> Box:
     cap_low, cap_high = _cap_bounds(query.frame, jnp.where(found, score, 0))
     slack = grid.side * 1e-3
     low = Point(*(jnp.where(found, jnp.maximum(u, v), u) - slack for u, v in zip(low, cap_low, strict=True)))
-    high = Point(*(jnp.where(found, jnp.minimum(u, v), u) + slack for u, v in zip(high, cap_high, strict=True)))
+    high = Point(
+        *(jnp.where(found, jnp.minimum(u, v), u) + slack for u, v in zip(high, cap_high, strict=True))
+    )
     return containment_box(low, high, grid)
 
 

@@ -32,7 +32,9 @@ def ball_box(ball: Ball, grid: Grid) -> Box:
 
 def squared_distance_to_box(p: Point, low: Point, high: Point) -> Any:
     """Squared distance from a point to the nearest point of a box; 0 inside it."""
-    gap = Point(*(jnp.maximum(jnp.maximum(lo - v, v - hi), 0) for v, lo, hi in zip(p, low, high, strict=True)))
+    gap = Point(
+        *(jnp.maximum(jnp.maximum(lo - v, v - hi), 0) for v, lo, hi in zip(p, low, high, strict=True))
+    )
     return dot(gap, gap)
 
 

@@ -1,7 +1,7 @@
 """The main loop: parallel incremental extrapolation.
 
-Teng et al. 1993, section 3. Every site starts with a first facet; both its sides are open. Each iteration expands
-all open faces at once.
+Teng et al. 1993, section 3. Every site starts with a first facet; both its sides are open. Each iteration
+expands all open faces at once.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def triangulate(
         out.per_iteration.append(len(new.a))
         total += len(new.a)
         out.inconsistencies += lost + lost_boundary
-        _give_up_if_hopeless(out, total)
+        _give_up_if_hopeless(out, total, len(sites))
         if report is not None:
             report(len(out.per_iteration), len(open_list.a), total)
 
@@ -128,8 +128,9 @@ def _both_sides(facets: Face) -> Face:
     return sv.append(facets, facets.a.machine.map(opposite, facets))
 
 
-def _give_up_if_hopeless(out: Outcome, total: int) -> None:
-    if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total):
+def _give_up_if_hopeless(out: Outcome, total: int, n: int) -> None:
+    # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too
+    if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total) or 2 * total > n * n:
         msg = (
             f"{out.inconsistencies} inconsistencies among {total} tetrahedra after "
             f"{len(out.per_iteration)} iterations: sites too close to cospherical for this precision and "
@@ -140,7 +141,6 @@ def _give_up_if_hopeless(out: Outcome, total: int) -> None:
 
 def _assemble(buckets: Buckets, dead: DeadFaces, found: list[Tetrahedron], out: Outcome) -> None:
     """Collect the tetrahedra of all iterations, their neighbors, and the sites' own numbers."""
-    machine = buckets.origin.machine
     every = found[0]
     for more in found[1:]:
         every = sv.append(every, more)

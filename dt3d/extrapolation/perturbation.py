@@ -1,7 +1,7 @@
 """Normalisation to the unit cube, and the random linear map that resolves cospherical sites.
 
-Teng et al. 1993, section 5.1: sites v become (I + eta M) v with M uniform in [0, 1]. Lines and planes stay what
-they are; spheres become ellipsoids, so five cospherical sites are no longer so.
+Teng et al. 1993, section 5.1: sites v become (I + eta M) v with M uniform in [0, 1]. Lines and planes stay
+what they are; spheres become ellipsoids, so five cospherical sites are no longer so.
 """
 
 from __future__ import annotations
@@ -28,5 +28,6 @@ def perturb(sites: np.ndarray, dtype: np.dtype, seed: int) -> np.ndarray:
     """(I + eta M) applied to sites (n, 3), in the working precision."""
     m = np.random.default_rng(seed).random((3, 3))
     # written out, so that equal sites give equal results wherever they stand in the array
-    moved = np.column_stack([m[k, 0] * sites[:, 0] + m[k, 1] * sites[:, 1] + m[k, 2] * sites[:, 2] for k in range(3)])
+    x, y, z = sites.T
+    moved = np.column_stack([row[0] * x + row[1] * y + row[2] * z for row in m])
     return (sites + MAGNITUDE[np.dtype(dtype)] * moved).astype(dtype)

@@ -1,9 +1,9 @@
 """The search for each query's best site, by requests and warrants.
 
-Teng et al. 1993, section 4.2. Three searches of the algorithm (a nearest site, a smallest circumcircle, a face
-expansion) ask for the site of least score near a query. All queries search at once, in rounds: each opens
-some cells, and two segmented lists turn their unequal loads into lengths of vectors, which the machine shares
-out evenly:
+Teng et al. 1993, section 4.2. Three searches of the algorithm (a nearest site, a smallest circumcircle, a
+face expansion) ask for the site of least score near a query. All queries search at once, in rounds: each
+opens some cells, and two segmented lists turn their unequal loads into lengths of vectors, which the machine
+shares out evenly:
 
 * a *request* for every (query, cell) pair; cells that cannot hold a better site are pruned;
 * for every request, as many *warrants* as its cell's sites need, each for at most `SITES_PER_WARRANT` sites.
@@ -17,6 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -26,9 +27,10 @@ from .boxes import Box, Grid, contains, corners, difference_cell, empty_box, ext
 from .buckets import SITES_PER_CELL, Buckets
 
 SITES_PER_WARRANT = SITES_PER_CELL
-# A box grows by one cell a round in each direction, then by two, four, ... After so many rounds all cells that
-# are left are opened at once (the paper's "preset limit").
+# A box grows by one cell in each direction for two rounds, then by two for two more, by four, ... After so
+# many rounds all cells that are left are opened at once (the paper's "preset limit").
 ROUNDS_BEFORE_ALL = 8
+EVERY_CELL = 2**20  # more cells than any grid has along a side
 # Queries that would take a round beyond so many requests wait for the next one; it bounds the memory.
 MOST_REQUESTS = 2**20
 
@@ -81,7 +83,7 @@ def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
     """The site of least score for each of m queries, a record of vectors of length m."""
     machine = buckets.origin.machine
     steps = _steps_of(question)
-    m = len(next(iter(_leaves(queries))))
+    m = len(jax.tree.leaves(queries)[0])
     state = machine.map(
         steps.begin, machine.iota(m), queries, buckets.grid, buckets.sites.x.dtype.type(np.inf)
     )
@@ -91,9 +93,7 @@ def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
     while len(state.index):
         state, done, count = _round(buckets, state, steps)
         searched += count
-        scores, sites = sv.permute(
-            (state.score, state.best), state.index, into=(scores, sites), where=done
-        )
+        scores, sites = sv.permute((state.score, state.best), state.index, into=(scores, sites), where=done)
         state = sv.pack(state, ~done)
     return Answer(scores, sites, searched)
 
@@ -167,9 +167,9 @@ def _make_steps(question: Question) -> _Steps:
         )  # fmt: skip
 
     def request(query: Any, score: Any, new: Box, dead: Box, k: Any, grid: Grid) -> tuple[Any, Any]:
-        i, j, l = difference_cell(new, dead, k)
-        low, high = corners(i, j, l, grid)
-        return i + grid.nx * (j + grid.ny * l), question.admits(query, score, low, high)
+        i, j, h = difference_cell(new, dead, k)
+        low, high = corners(i, j, h, grid)
+        return i + grid.nx * (j + grid.ny * h), question.admits(query, score, low, high)
 
     def examine(query: Any, point: Any, site: Any, active: Any, score: Any, best: Any) -> tuple[Any, Any]:
         value = question.score(query, point, site)
@@ -184,18 +184,12 @@ def _make_steps(question: Question) -> _Steps:
         target = question.region(state.query, score, grid)
         done = going & contains(dead, target)
         rounds = state.rounds + going
-        steps = jnp.where(rounds >= ROUNDS_BEFORE_ALL, 2**20, 1 << jnp.minimum(rounds - 1, 10) // 2)
-        new = extend(dead, target, steps)
+        growth = jnp.left_shift(1, (rounds - 1) // 2)
+        new = extend(dead, target, jnp.where(rounds < ROUNDS_BEFORE_ALL, growth, EVERY_CELL))
         new = Box(*(jnp.where(going, g, n) for g, n in zip(new, state.new, strict=True)))
         return Search(state.index, state.query, score, best, dead, new, rounds), done
 
     return _Steps(begin, request, examine, conclude)
-
-
-def _leaves(record: Any) -> Any:
-    import jax
-
-    return jax.tree.leaves(record)
 
 
 def _cells_to_open(new: Box, dead: Box) -> Any:

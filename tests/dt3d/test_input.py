@@ -1,0 +1,121 @@
+"""The input contract: what bad input gets, word for word."""
+
+import numpy as np
+import pytest
+
+import dt3d
+
+from .exact import validate
+
+RNG = np.random.default_rng(0)
+POINTS = RNG.random((20, 3))
+
+
+def with_value(value):
+    points = POINTS.copy()
+    points[[4, 9], 1] = value
+    return points
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        (POINTS[:, :2], r"shape \(n, 3\), got \(20, 2\)"),
+        (POINTS.ravel(), r"shape \(n, 3\), got \(60,\)"),
+        (POINTS[None], r"shape \(n, 3\), got \(1, 20, 3\)"),
+        ([[1, 2, 3], [4, 5]], r"rows that came do not have one length"),
+        (np.zeros((0, 3)), "points are empty"),
+        (POINTS + 1j, "real numbers.*complex128"),
+        (POINTS.astype(str), "real numbers.*<U"),
+        (POINTS > 0.5, "real numbers.*bool"),
+        (POINTS.astype(object), "real numbers.*object"),
+        (np.ma.masked_array(POINTS, POINTS > 0.9), "masked array"),
+        (with_value(np.nan), "2 rows have NaN or infinity, the first is row 4"),
+        (with_value(np.inf), "2 rows have NaN or infinity, the first is row 4"),
+        ((POINTS * 2**60).astype(np.int64), r"integers beyond 2\^53"),
+    ],
+)
+def test_what_is_no_set_of_points(points, message):
+    with pytest.raises(ValueError, match=message):
+        dt3d.Delaunay(points)
+
+
+@pytest.mark.parametrize(
+    ("points", "dimension", "words"),
+    [
+        (np.ones((7, 3)), 0, "the 1 distinct sites that came coincide"),
+        (POINTS[:1], 0, "coincide"),
+        (np.outer(np.arange(9), [1, 2, 3]), 1, "lie on a line"),
+        (POINTS[:2], 1, "lie on a line"),
+        (POINTS * [1, 1, 0], 2, "lie on a plane"),
+        (POINTS[:3], 2, "lie on a plane"),
+        (np.c_[POINTS[:, :2], POINTS[:, :2].sum(axis=1)], 2, "lie on a plane"),
+        (np.concatenate([POINTS[:3], POINTS[:3]]), 2, "the 3 distinct sites"),
+    ],
+)
+def test_sets_without_volume(points, dimension, words):
+    with pytest.raises(dt3d.DegenerateInputError, match=words) as caught:
+        dt3d.Delaunay(points)
+    assert caught.value.dimension == dimension
+    assert f"dimension {dimension}" in str(caught.value)
+    assert isinstance(caught.value, ValueError)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"method": "flip"}, "method must be 'auto' or 'extrapolation', got 'flip'"),
+        ({"robustness": "none"}, "robustness must be 'perturb', got 'none'"),
+        ({"dtype": "float16"}, "dtype must be float64 or float32, got 'float16'"),
+        ({"dtype": "no"}, "dtype must be float64 or float32, got 'no'"),
+        ({"machine": "gpu"}, "machine must be a scanvec machine"),
+        ({"seed": -1}, "seed"),
+        ({"callback": 3}, "callback must be callable"),
+    ],
+)
+def test_unknown_options(options, message):
+    with pytest.raises(ValueError, match=message):
+        dt3d.Delaunay(POINTS, **options)
+
+
+def test_duplicates_are_used_once_and_listed():
+    points = np.concatenate([POINTS, POINTS[[3, 3, 7]], -0.0 * POINTS[:1], 0.0 * POINTS[:1]])
+    tri = dt3d.Delaunay(points)
+    assert tri.duplicates.tolist() == [[20, 3], [21, 3], [22, 7], [24, 23]]  # -0.0 equals 0.0
+    validate(tri)
+
+
+def test_sites_that_single_precision_cannot_tell_apart_are_listed():
+    points = np.concatenate([POINTS, POINTS[:2] + 1e-12])
+    with pytest.warns(dt3d.InconsistencyWarning, match="2 sites differ from others by less than float32"):
+        tri = dt3d.Delaunay(points, dtype="float32")
+    assert tri.duplicates.tolist() == [[20, 0], [21, 1]]
+
+
+@pytest.mark.parametrize("dtype", [np.int16, np.uint64, np.float32, np.float16])
+def test_other_numbers_are_taken(dtype):
+    points = (RNG.random((30, 3)) * 1000).astype(dtype)
+    tri = dt3d.Delaunay(points)
+    assert tri.points.dtype == np.float64
+    validate(tri)
+
+
+def test_the_input_is_not_changed():
+    points = POINTS.copy()
+    points.flags.writeable = False
+    np.testing.assert_array_equal(dt3d.Delaunay(points).points, POINTS)
+
+
+@pytest.mark.parametrize("exponent", [-1060, -300, 300, 1020])
+def test_extreme_magnitudes(exponent):
+    points = np.ldexp(np.round(POINTS * 4096), exponent - 12)
+    validate(dt3d.Delaunay(points))
+
+
+def test_far_from_the_origin():
+    validate(dt3d.Delaunay(POINTS + 1e6))
+
+
+def test_differences_that_would_overflow():
+    points = (np.round(POINTS * 2**20) / 2**20 * 2 - 1) * 1.7e308
+    validate(dt3d.Delaunay(points))

@@ -1,0 +1,82 @@
+"""Callbacks, interruption, and sets that the paper's method cannot finish."""
+
+import numpy as np
+import pytest
+
+import dt3d
+import scanvec as sv
+from dt3d.extrapolation import loop
+
+from .exact import check_neighbors
+
+
+def on_sphere(n):
+    points = np.random.default_rng(n).standard_normal((n, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def test_progress_is_reported_after_every_iteration():
+    seen = []
+    tri = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), callback=seen.append)
+    assert [p.iteration for p in seen] == list(range(1, tri.stats.iterations + 1))
+    assert [p.tetrahedra for p in seen] == np.cumsum(tri.stats.tetrahedra_per_iteration).tolist()
+    assert seen[-1].open_faces == 0
+    assert all(p.open_faces > 0 for p in seen[:-1])
+    assert all(a.seconds < b.seconds for a, b in zip(seen, seen[1:], strict=False))
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
+def test_what_a_callback_raises_ends_the_run_within_an_iteration(error):
+    seen = []
+
+    def stop(progress):
+        seen.append(progress)
+        raise error
+
+    with pytest.raises(error):
+        dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), callback=stop)
+    assert len(seen) == 1
+
+
+def test_a_set_that_cannot_be_finished_ends_with_an_error_that_counts():
+    with pytest.raises(dt3d.InconsistencyError, match=r"\d+ inconsistencies among \d+ tetrahedra") as caught:
+        dt3d.Delaunay(on_sphere(2000), dtype="float32")
+    assert caught.value.inconsistencies > loop.GIVE_UP_COUNT
+    assert "float64" in str(caught.value)
+
+
+def test_a_few_inconsistencies_are_counted_and_warned_of():
+    with pytest.warns(dt3d.InconsistencyWarning, match=r"has \d+ inconsistencies"):
+        tri = dt3d.Delaunay(on_sphere(300), dtype="float32")
+    assert tri.stats.inconsistencies > 0
+
+
+def test_the_same_spheres_are_finished_in_double_precision():
+    tri = dt3d.Delaunay(on_sphere(300))
+    assert tri.stats.inconsistencies == 0
+    check_neighbors(tri)
+    assert len(tri.convex_hull) == 2 * 300 - 4  # Euler: all sites are on the hull
+
+
+def test_a_run_in_circles_ends(monkeypatch):
+    """Were open faces never purged, the number of tetrahedra would pass what n sites can have."""
+    monkeypatch.setattr(loop, "GIVE_UP_COUNT", 10**9)
+    again = []
+
+    def all_outward(dead, new):
+        again.append(1)
+        assert len(again) < 1000
+        return again_faces[0]
+
+    again_faces = []
+    real = loop._both_sides
+
+    def remember(facets):
+        again_faces.append(real(facets))
+        return again_faces[0]
+
+    monkeypatch.setattr(loop, "_both_sides", remember)
+    monkeypatch.setattr(loop, "open_faces", all_outward)
+    monkeypatch.setattr(loop, "bury", lambda dead, new, first: (dead, new, 0))
+    with pytest.raises(dt3d.InconsistencyError):
+        dt3d.Delaunay(np.random.default_rng(0).random((30, 3)), machine=sv.Device())

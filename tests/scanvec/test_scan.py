@@ -1,0 +1,135 @@
+"""Scans, plain and segmented, against the serial twin on every machine."""
+
+import hypothesis.strategies as st
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from hypothesis import given
+
+import scanvec as sv
+
+from . import twins
+from .cases import (
+    DTYPES,
+    INTEGERS,
+    MACHINES,
+    assert_same,
+    lengths_of_segments,
+    load,
+    of_dtype,
+    of_dtypes,
+    sizes,
+    words,
+)
+
+FORMS = {
+    sv.scan: {"inclusive": False, "backward": False},
+    sv.scan_inclusive: {"inclusive": True, "backward": False},
+    sv.backscan: {"inclusive": False, "backward": True},
+    sv.backscan_inclusive: {"inclusive": True, "backward": True},
+}
+each_form = pytest.mark.parametrize("form", FORMS, ids=lambda form: form.__name__)
+
+
+# x -> a x + b, composed from left to right: a reader's own operator on records that does not commute
+def _compose(f: tuple, g: tuple) -> tuple:
+    return g[0] * f[0], g[0] * f[1] + g[1]
+
+
+AFFINE = sv.Monoid("affine", _compose, lambda dtypes: (1, 0), "i")
+
+
+@each_form
+@given(lengths=lengths_of_segments, data=st.data())
+def test_every_form_with_an_operator_that_does_not_commute(form, lengths, data):
+    n = sum(lengths)
+    a, b = (of_dtype(data.draw(words(n)), "int32") for _ in range(2))
+    with np.errstate(over="ignore"):
+        rows = list(zip(a, b, strict=True))
+        plain = twins.scan(rows, _compose, (1, 0), **FORMS[form])
+        segmented = twins.scan(rows, _compose, (1, 0), twins.heads_of(lengths), **FORMS[form])
+    for machine in MACHINES:
+        segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
+        for want, where in ((plain, None), (segmented, segments)):
+            got = form(load(machine, (a, b)), AFFINE, where)
+            for column in (0, 1):
+                assert_same(got[column], np.array([row[column] for row in want], np.int32))
+
+
+NUMBERS = ("bool", *INTEGERS)  # of which results are exact; test_float_sums.py has the others
+
+
+# All dtypes go through one kernel as a record. The device and, by turns, one of the simulated machines: a
+# kernel for twelve dtypes takes a second to compile.
+@pytest.mark.parametrize(
+    ("op", "plain_form", "segmented_form", "dtypes", "simulated"),
+    [
+        (sv.ADD, sv.scan, sv.backscan_inclusive, NUMBERS, MACHINES[2]),
+        (sv.MUL, sv.backscan, sv.scan_inclusive, NUMBERS, MACHINES[3]),
+        (sv.MIN, sv.scan_inclusive, sv.backscan, DTYPES, MACHINES[4]),
+        (sv.MAX, sv.backscan_inclusive, sv.scan, DTYPES, MACHINES[2]),
+        (sv.AND, sv.scan, sv.backscan_inclusive, NUMBERS, MACHINES[1]),
+        (sv.OR, sv.backscan_inclusive, sv.scan, NUMBERS, MACHINES[3]),
+        (sv.COPY, sv.backscan, sv.scan_inclusive, DTYPES, MACHINES[2]),
+    ],
+    ids=lambda x: getattr(x, "name", ""),
+)
+@given(lengths=lengths_of_segments, data=st.data())
+def test_every_operator_and_dtype(op, plain_form, segmented_form, dtypes, simulated, lengths, data):
+    record = of_dtypes(data.draw(words(sum(lengths))), dtypes)
+    heads = twins.heads_of(lengths)
+    plain = {d: twins.scan_array(op, x, **FORMS[plain_form]) for d, x in record.items()}
+    segmented = {d: twins.scan_array(op, x, heads, **FORMS[segmented_form]) for d, x in record.items()}
+    for machine in (MACHINES[0], simulated):
+        loaded = load(machine, record)
+        segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
+        for dtype, got in plain_form(loaded, op).items():
+            assert_same(got, plain[dtype])
+        for dtype, got in segmented_form(loaded, op, segments).items():
+            assert_same(got, segmented[dtype])
+
+
+@each_form
+@given(raw=words(sizes))
+def test_the_whole_vector_on_every_machine(form, raw):
+    values = of_dtype(raw, "int32")
+    want = twins.scan_array(sv.ADD, values, **FORMS[form])
+    for machine in MACHINES:
+        assert_same(form(machine.vector(values), sv.ADD), want)
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=repr)
+@pytest.mark.parametrize("n", [4096, 5000, 16385])
+def test_vectors_longer_than_the_smallest_block(machine, n):
+    values = np.random.default_rng(n).integers(-(2**31), 2**31, n, dtype=np.int32)
+    assert_same(sv.scan_inclusive(machine.vector(values), sv.ADD), np.cumsum(values, dtype=np.int32))
+
+
+@given(lengths=lengths_of_segments, data=st.data())
+def test_copy_scan_moves_every_bit(lengths, data):
+    values = data.draw(words(sum(lengths))).view(np.float64)  # NaNs with payloads and subnormals too
+    want = [values[i] for i in twins.scan(range(len(values)), lambda a, b: a, 0, twins.heads_of(lengths),
+                                          inclusive=True, backward=False)]  # fmt: skip
+    for machine in MACHINES:
+        segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
+        got = sv.copy_scan(machine.vector(values), segments).to_numpy()
+        assert got.tobytes() == np.array(want, np.float64).tobytes()
+
+
+@given(lengths=lengths_of_segments, data=st.data())
+def test_enumerate_counts_the_flags_before(lengths, data):
+    flags = of_dtype(data.draw(words(sum(lengths))), "bool")
+    form = FORMS[sv.scan]
+    plain = twins.scan_array(sv.ADD, flags, **form)
+    segmented = twins.scan_array(sv.ADD, flags, twins.heads_of(lengths), **form)
+    for machine in MACHINES:
+        segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
+        assert_same(sv.enumerate(machine.vector(flags)), plain)
+        assert_same(sv.enumerate(machine.vector(flags), segments), segmented)
+
+
+def test_a_user_defined_operator_from_the_documentation():
+    longest = sv.Monoid("longest", lambda a, b: jnp.where(b > a, b, a), lambda dtype: 0)
+    for machine in MACHINES:
+        got = sv.scan(machine.vector(np.array([3, 1, 4, 1, 5], np.int16)), longest)
+        assert_same(got, np.array([0, 3, 3, 4, 4], np.int16))

@@ -1,0 +1,38 @@
+"""Every example runs, on few sites, and writes into a temporary folder."""
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+# The words after each example's name, and the files that it then writes into the current folder.
+RUNS = {
+    "scan_primitives.py": [([], [])],
+    "first_triangulation.py": [
+        (["60"], []),
+        (["60", "--write", "sites.vtu"], ["sites.vtu"]),
+        (["60", "--write", "sites.png"], ["sites.png"]),
+    ],
+    "watch_it_grow.py": [
+        (["--sites", "60", "--folder", "growth", "--size", "200"], ["growth/iteration_01.png"]),
+        (["--sites", "60", "--folder", "growth", "--size", "200", "--cut"], ["growth/iteration_02.png"]),
+    ],
+}
+
+
+def test_every_example_is_run():
+    assert sorted(RUNS) == sorted(path.name for path in EXAMPLES.glob("*.py"))
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "written"), [(name, *run) for name, runs in RUNS.items() for run in runs]
+)
+def test_example(name, words, written, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    run = runpy.run_path(str(EXAMPLES / name))["main"]
+    run(words) if words else run()
+    assert capsys.readouterr().out
+    for file in written:
+        assert (tmp_path / file).stat().st_size > 0
