@@ -18,14 +18,13 @@ import numpy as np
 
 from ._mesh import INSTALL_VIEW
 from ._paths import check_folder
+from ._topology import OUTWARD
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FORMATS = (".png", ".pdf", ".svg", ".jpg")
 
-# The faces of a tetrahedron, each opposite the vertex of its number, seen counter-clockwise from outside.
-FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 EYE = 4.0  # distance of the eye from the centre, in radii of the set
 
 
@@ -144,7 +143,7 @@ def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) ->
     corners = middle + view.shrink * (corners - middle)
 
     # faces turned to the eye, which is at (0, 0, EYE): x to the right, y up, z to the eye
-    faces = corners[:, FACES]
+    faces = corners[:, OUTWARD]
     normal = np.cross(faces[:, :, 1] - faces[:, :, 0], faces[:, :, 2] - faces[:, :, 0])
     normal /= np.linalg.norm(normal, axis=2, keepdims=True) + np.finfo(float).tiny
     visible = np.einsum("mfk,mfk->mf", normal, [0.0, 0.0, EYE] - faces[:, :, 0]) > 0

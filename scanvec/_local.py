@@ -22,7 +22,7 @@ NOWHERE = 2**31 - 1
 # What permute asks of `put`: places are checked to be distinct.
 UNIQUE = Monoid("unique", lambda a, b: b, lambda dtype: 0)
 
-# What `scatter` can do, which is what XLA's scatters can.
+# What `put` can do, which is what XLA's scatters can.
 COMBINERS = (UNIQUE, ADD, MUL, MIN, MAX, AND, OR, COPY)
 
 
@@ -75,12 +75,12 @@ def map_elements(fn: Callable, args: Any, where: Any, otherwise: Any) -> Any:
     out = checked(*args)
     if where is None:
         return out
-    got, want = jax.tree.structure(otherwise), jax.tree.structure(out)
-    if not jax.tree_util.all_leaves([otherwise]) and got != want:
+    if jax.tree_util.all_leaves([otherwise]):
+        otherwise = jax.tree.map(lambda _: otherwise, out)  # one for all leaves
+    got, want = map(str, (jax.tree.structure(otherwise), jax.tree.structure(out)))
+    if got != want:
         msg = f"map: `otherwise` is a record {got}, the result {want}; give one like the result or a scalar"
         raise TypeError(msg)
-    if got != want:
-        otherwise = jax.tree.map(lambda _: otherwise, out)  # one scalar for all leaves
     return jax.tree.map(lambda x, y: jnp.where(where, x, jnp.asarray(y, x.dtype)), out, otherwise)
 
 
@@ -150,13 +150,7 @@ def _scatter(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) 
         first = jnp.full(into.shape, nobody).at[target.ravel()].min(sender, mode="drop")
         taken = values.ravel()[jnp.minimum(first, target.size - 1)]
         return jnp.where(first < nobody, taken, into)
-    if op in (AND, OR):
-        return _scatter_bits(op, into, target, values)
-    msg = (
-        f"send: the operator {op.name} cannot combine a concurrent write; "
-        f"use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY"
-    )
-    raise TypeError(msg)
+    return _scatter_bits(op, into, target, values)
 
 
 @jax.jit

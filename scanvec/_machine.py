@@ -14,7 +14,7 @@ from . import _local
 from ._monoid import ADD, MUL, Monoid
 from ._vector import Vector
 
-SMALLEST_BLOCK = 4096  # elements; shorter vectors share its compiled kernels
+SMALLEST_BLOCK = 16384  # elements; shorter vectors share its compiled kernels
 LARGEST_VECTOR = 2**31 - 1  # indices are int32
 
 
@@ -288,6 +288,12 @@ class Machine(abc.ABC):
             got, want = [str(v.dtype) for v in vectors], [str(v.dtype) for v in places]
             msg = f"send: elements of {', '.join(got)} cannot go into {', '.join(want)}; convert with astype"
             raise ValueError(msg)
+        if op not in _local.COMBINERS:
+            msg = (
+                f"send: the operator {op.name} cannot combine a concurrent write; "
+                f"use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY"
+            )
+            raise TypeError(msg)
         for v in vectors:
             op.check(v.dtype, "send")
         n, m = len(vectors[0]), len(places[0])

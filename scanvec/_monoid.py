@@ -98,6 +98,7 @@ def _of_leaves(name: str, fn: Callable, identity: Callable, kinds: str = "biuf")
 
 ADD = _of_leaves("add", jnp.add, lambda dtype: 0, "iuf")
 MUL = _of_leaves("mul", jnp.multiply, lambda dtype: 1, "iuf")
+# XLA takes subnormal floats for zero on CPUs, in these two as in all arithmetic; sorts and copies do not.
 MIN = _of_leaves("min", jnp.minimum, highest)
 MAX = _of_leaves("max", jnp.maximum, lowest)
 AND = _of_leaves("and", jnp.bitwise_and, _all_ones, "biu")

@@ -31,7 +31,9 @@ def _heads(segments: Segments | None, record: Any) -> Vector | None:
 def scan(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
     """r[i] = op(v[s], ..., v[i-1]), the identity at i = s, the start of i's segment (0 without segments).
 
-    One scan step, n elements. Raises TypeError where ``op`` is not defined for the dtype.
+    One scan step, n elements; booleans are added and multiplied as int32, which is one more. A record is
+    scanned leaf by leaf, unless the operator is one on records. Raises TypeError where ``op`` is not defined
+    for the dtype.
     """
     return machine_of(record).scan(record, op, exclusive=True, heads=_heads(segments, record))
 

@@ -17,7 +17,8 @@ class Vector:
 
     Make one with ``machine.vector(array)``. Vectors do not change: every operation gives a new one.
     Arithmetic, comparison and bitwise operators act elementwise, between vectors of one length on one
-    machine, or with a Python scalar; ``to_numpy`` (or ``numpy.asarray``) brings the elements back.
+    machine, or with a Python scalar; ``to_numpy`` (or ``numpy.asarray``) brings the elements back. A quotient
+    of two vectors is rounded once; for that by a scalar XLA multiplies by its reciprocal, which rounds twice.
 
     Attributes
     ----------

@@ -6,7 +6,7 @@ settings.register_profile(
     "scans",
     deadline=None,
     derandomize=False,
-    max_examples=25,
+    max_examples=20,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 settings.load_profile("scans")

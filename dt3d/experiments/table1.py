@@ -237,6 +237,8 @@ def _draw(measured: list[Row], path: Path) -> None:
         axes.plot(n, [value(r.paper, r.paper.sites) for r in random], "s-", color="tab:orange", label="paper")
         axes.plot(n, [value(r.ours, r.paper.sites) for r in random], "o-", color="tab:blue", label="dt3d")
         axes.set(xscale="log", xlabel="sites", title=title)
+        axes.set_xticks(n, [str(k) for k in n], rotation=30)
+        axes.minorticks_off()
         if "searched" in title:
             axes.set_ylim(bottom=0)
     axes.legend()

@@ -38,7 +38,7 @@ def test_sums(lengths, data):
     record = {dtype: data.draw(fractions(dtype, n)) for dtype in FLOATS}
     heads = twins.heads_of(lengths)
     ids = twins.ids_of(lengths)
-    for machine in MACHINES:
+    for machine in MACHINES[::2]:
         loaded = load(machine, record)
         segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
         plain = sv.scan_inclusive(loaded, sv.ADD)

@@ -8,22 +8,8 @@ import pytest
 
 import scanvec as sv
 
-NUMBERS = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-    "thirteen",
-]
+WORDS = "zero|one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|thirteen"
+STATES_STEPS = re.compile(rf"\b({WORDS}) (?:scan |elementwise )?steps?\b")
 
 
 class Inputs:
@@ -75,7 +61,7 @@ STATED = [
     (sv.Segments.offsets.fget, lambda x: x.segments.offsets, 3, 3),
 ]  # fmt: skip
 each = pytest.mark.parametrize(
-    ("documented", "program", "full", "empty"), STATED, ids=lambda x: getattr(x, "__qualname__", "")
+    ("documented", "program", "full", "empty"), STATED, ids=[row[0].__qualname__ for row in STATED]
 )
 
 
@@ -92,21 +78,18 @@ def test_steps(documented, program, full, empty):
 @each
 def test_what_the_docstring_says(documented, program, full, empty):
     text = inspect.getdoc(documented).lower()
-    stated = re.search(rf"\b({'|'.join(NUMBERS)}) (?:scan |elementwise )?steps?\b", text)
+    stated = STATES_STEPS.search(text)
     assert stated is not None
-    assert NUMBERS.index(stated[1]) == full
+    assert WORDS.split("|").index(stated[1]) == full
 
 
-def test_all_step_counts_are_in_this_table():
-    members = [getattr(sv, name) for name in sv.__all__]
-    members += [m for c in (sv.Machine, sv.Vector) for m in vars(c).values()]
-    members += [getattr(m, "__func__", getattr(m, "fget", m)) for m in vars(sv.Segments).values()]
-    documented = {row[0] for row in STATED}
-    documented = {getattr(m, "__func__", m) for m in documented}
-    for member in members:
-        text = member.__doc__ if inspect.isfunction(member) else ""
-        if re.search(rf"\b({'|'.join(NUMBERS)}) \w*\s?steps?\b", (text or "").lower()):
-            assert member in documented, member
+def test_no_stated_count_is_missing_here():
+    functions = [getattr(sv, name) for name in sv.__all__]
+    functions += [f for c in (sv.Machine, sv.Vector, sv.Segments) for f in vars(c).values()]
+    functions = [getattr(f, "__func__", getattr(f, "fget", f)) for f in functions]  # as the class has them
+    tested = [getattr(row[0], "__func__", row[0]) for row in STATED]
+    for f in filter(inspect.isfunction, functions):
+        assert f in tested or not STATES_STEPS.search((f.__doc__ or "").lower()), f
 
 
 @pytest.mark.parametrize(
