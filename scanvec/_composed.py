@@ -8,7 +8,7 @@ from typing import Any
 
 import jax
 
-from ._machine import is_vector
+from ._records import is_vector
 
 
 def composed(function: Callable) -> Callable:

@@ -11,7 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _local
-from ._machine import SMALLEST_BLOCK, Machine, check_size, round_up
+from ._checks import check_size
+from ._machine import SMALLEST_BLOCK, Machine, round_up
 from ._monoid import ONE_SIDED, Monoid
 from ._vector import Vector
 

@@ -11,59 +11,20 @@ import jax
 import numpy as np
 
 from . import _local
+from ._checks import (
+    check_distinct,
+    check_dtype,
+    check_flags,
+    check_index,
+    check_size,
+    out_of_range,
+    vectors_and_scalars,
+)
 from ._monoid import ADD, MUL, Monoid
+from ._records import blocks_of, check_alike, is_vector, structure_of, vectors_of
 from ._vector import Vector
 
 SMALLEST_BLOCK = 16384  # elements; shorter vectors share its compiled kernels
-LARGEST_VECTOR = 2**31 - 1  # indices are int32
-
-
-def is_vector(x: Any) -> bool:
-    return isinstance(x, Vector)
-
-
-def vectors_of(record: Any) -> list[Vector]:
-    """The vectors of a record (a pytree whose leaves are vectors), checked to share machine and length."""
-    leaves = jax.tree.leaves(record, is_leaf=is_vector)
-    if not leaves or not all(map(is_vector, leaves)):
-        kinds = ", ".join(sorted({type(x).__name__ for x in leaves})) or "nothing"
-        msg = f"expected a Vector or a record (pytree) of Vectors, got {kinds}; use machine.vector(array)"
-        raise TypeError(msg)
-    check_alike(leaves)
-    return leaves
-
-
-def check_alike(vectors: list[Vector]) -> None:
-    """Raise ValueError unless all vectors live on one machine and have one length."""
-    first = vectors[0]
-    for v in vectors[1:]:
-        if v.machine is not first.machine:
-            msg = (
-                f"vectors live on different machines: {first.machine!r} and {v.machine!r}; "
-                f"move one through to_numpy"
-            )
-            raise ValueError(msg)
-        if len(v) != len(first):
-            msg = f"vectors have different lengths: {len(first)} and {len(v)}"
-            raise ValueError(msg)
-
-
-def structure_of(record: Any) -> Any:
-    """How a record's vectors hang together, for comparison."""
-    return jax.tree.structure(record, is_leaf=is_vector)
-
-
-def machine_of(record: Any) -> Machine:
-    return vectors_of(record)[0].machine
-
-
-def length_of(record: Any) -> int:
-    return len(vectors_of(record)[0])
-
-
-def blocks_of(record: Any) -> Any:
-    """The record with each vector replaced by its array."""
-    return jax.tree.map(lambda v: v._block if is_vector(v) else v, record, is_leaf=is_vector)
 
 
 def round_up(n: int, least: int) -> int:
@@ -99,7 +60,7 @@ class Machine(abc.ABC):
         if array.ndim != 1:
             msg = f"a vector takes a one-dimensional array, got shape {array.shape}; use one vector a column"
             raise ValueError(msg)
-        _check_dtype(array.dtype)
+        check_dtype(array.dtype)
         check_size(len(array))
         with jax.enable_x64(True):
             return Vector(self, self._load(array.astype(array.dtype.newbyteorder("="))), len(array))
@@ -114,7 +75,7 @@ class Machine(abc.ABC):
         TypeError
             If ``dtype`` is not one that `vector` takes.
         """
-        _check_dtype(np.dtype(dtype))
+        check_dtype(np.dtype(dtype))
         check_size(n)
         with jax.enable_x64(True):
             shape = self._shape(n)
@@ -187,11 +148,11 @@ class Machine(abc.ABC):
         ValueError
             If lengths or machines differ.
         """
-        vectors = _vectors_and_scalars(args)
+        vectors = vectors_and_scalars(args)
         if not vectors:
             msg = "map needs at least one Vector among its arguments"
             raise TypeError(msg)
-        vectors += _vectors_and_scalars(otherwise)
+        vectors += vectors_and_scalars(otherwise)
         if where is not None:
             check_flags(where, "map: where")
             vectors.append(where)
@@ -244,16 +205,20 @@ class Machine(abc.ABC):
         IndexError
             If an index in the context is not in 0 .. len(v)-1.
         TypeError
-            If ``index`` is not an integer vector.
+            If ``index`` is not an integer vector, or ``otherwise`` not a scalar.
         """
         vectors = vectors_of(record)
-        index = _check_index(index, vectors[0].machine, "get")
+        index = check_index(index, vectors[0].machine, "get")
         if where is not None:
             check_flags(where, "get: where")
             check_alike([index, where])
+        if is_vector(otherwise) or np.ndim(otherwise):
+            msg = f"get: `otherwise` must be a scalar, got {type(otherwise).__name__}"
+            raise TypeError(msg)
         n, m = len(index), len(vectors[0])
         with jax.enable_x64(True):
-            place = self._routed("get", index, where, n, m, vectors)
+            place, loads = self._routed("get", index, where, n, m)
+            self._charge("get", n, loads, vectors)
             out = jax.tree.map(lambda v: _local.take(v._block, place, otherwise), record, is_leaf=is_vector)
             return self._wrap(out, n)
 
@@ -275,7 +240,7 @@ class Machine(abc.ABC):
         """
         vectors = vectors_of(record)
         places = vectors_of(into)
-        index = _check_index(index, vectors[0].machine, "send")
+        index = check_index(index, vectors[0].machine, "send")
         check_alike([vectors[0], index] + ([] if where is None else [where]))
         if where is not None:
             check_flags(where, "send: where")
@@ -298,24 +263,24 @@ class Machine(abc.ABC):
             op.check(v.dtype, "send")
         n, m = len(vectors[0]), len(places[0])
         with jax.enable_x64(True):
-            place = self._routed("send", index, where, n, m, vectors)
+            place, loads = self._routed("send", index, where, n, m)
             if op is _local.UNIQUE:
-                _check_distinct(index, where, place, places[0]._block)
+                check_distinct(index, where, place, places[0]._block)
+            self._charge("send", max(n, m), loads, vectors)
             out = jax.tree.map(
                 lambda r, v: _local.put(op, r._block, place, v._block), into, record, is_leaf=is_vector
             )
             return self._wrap(out, m)
 
     def _routed(
-        self, what: str, index: Vector, where: Vector | None, n: int, m: int, vectors: list[Vector]
-    ) -> jax.Array:
-        """The flat places that n indices name in a vector of m elements, checked and charged."""
+        self, what: str, index: Vector, where: Vector | None, n: int, m: int
+    ) -> tuple[jax.Array, list[int]]:
+        """The flat places that n indices name among m elements, checked; and the messages it takes."""
         place, facts = self._route(what, index._block, blocks_of(where), n, m)
         least, greatest, *loads = np.asarray(facts).tolist()
         if least < 0 or greatest >= m:
-            _out_of_range(what, least, greatest, m)
-        self._charge(what, n if what == "get" else max(n, m), loads, vectors)
-        return place
+            out_of_range(what, least, greatest, m)
+        return place, loads
 
     def _wrap(self, blocks: Any, n: int) -> Any:
         return jax.tree.map(lambda b: Vector(self, b, n), blocks)
@@ -357,61 +322,3 @@ class Machine(abc.ABC):
         else:
             with self.ledger.operation(name):
                 yield
-
-
-def _vectors_and_scalars(args: Any) -> list[Vector]:
-    """The vectors among the leaves, all others of which must be scalars."""
-    leaves = jax.tree.leaves(args, is_leaf=is_vector)
-    for x in leaves:
-        if not is_vector(x) and np.ndim(x):
-            msg = f"map takes Vectors and scalars, got an array of shape {np.shape(x)}; use machine.vector"
-            raise TypeError(msg)
-    return [x for x in leaves if is_vector(x)]
-
-
-def _check_dtype(dtype: np.dtype) -> None:
-    if dtype.kind not in "biuf" or dtype.itemsize > 8:
-        msg = f"a vector takes bool, int, uint or float elements of at most 64 bits, got {dtype}"
-        raise TypeError(msg)
-
-
-def check_size(n: int) -> None:
-    if not 0 <= n <= LARGEST_VECTOR:
-        msg = f"a vector takes 0 .. 2^31 - 1 elements, got {n}"
-        raise ValueError(msg)
-
-
-def check_flags(v: Any, what: str) -> None:
-    if not is_vector(v) or v.dtype != bool:
-        got = v.dtype if is_vector(v) else type(v).__name__
-        msg = f"{what} must be a Vector of bool, got {got}"
-        raise TypeError(msg)
-
-
-def _check_index(index: Any, machine: Machine, what: str) -> Vector:
-    if not is_vector(index) or index.dtype.kind not in "iu":
-        got = index.dtype if is_vector(index) else type(index).__name__
-        msg = f"{what}: the index must be a Vector of integers, got {got}"
-        raise TypeError(msg)
-    if index.machine is not machine:
-        msg = f"{what}: the index lives on {index.machine!r}, the vector on {machine!r}"
-        raise ValueError(msg)
-    return index
-
-
-def _out_of_range(what: str, least: int, greatest: int, n: int) -> None:
-    indices = f"0 .. {n - 1}" if n else "no index"
-    msg = f"{what}: indices from {least} to {greatest}, but the vector has {n} elements ({indices})"
-    raise IndexError(msg)
-
-
-def _check_distinct(index: Vector, where: Vector | None, place: jax.Array, into: jax.Array) -> None:
-    hits = int(_local.most_hits(into, place))
-    if hits > 1:
-        targets = index.to_numpy() if where is None else index.to_numpy()[where.to_numpy()]
-        values, counts = np.unique(targets, return_counts=True)
-        msg = (
-            f"permute: {hits} elements are sent to position {values[counts.argmax()]}; a permutation takes "
-            f"distinct indices. For a concurrent write use scanvec.send with a combining operator"
-        )
-        raise ValueError(msg)

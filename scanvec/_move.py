@@ -7,9 +7,10 @@ from typing import Any
 import jax
 
 from . import _local
+from ._checks import check_flags
 from ._composed import composed
-from ._machine import check_alike, check_flags, is_vector, length_of, machine_of, structure_of, vectors_of
 from ._monoid import ADD, Monoid
+from ._records import check_alike, is_vector, length_of, machine_of, structure_of, vectors_of
 from ._segments import Segments
 from ._vector import Vector
 

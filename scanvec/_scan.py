@@ -10,9 +10,10 @@ from typing import Any
 import jax
 import numpy as np
 
+from ._checks import check_flags
 from ._composed import composed
-from ._machine import check_flags, is_vector, length_of, machine_of, vectors_of
 from ._monoid import ADD, COPY, MUL, Monoid
+from ._records import is_vector, length_of, machine_of, vectors_of
 from ._segments import Segments
 from ._vector import Vector
 

@@ -9,7 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _local
-from ._machine import LARGEST_VECTOR, Machine, check_flags
+from ._checks import LARGEST_VECTOR, check_flags
+from ._machine import Machine
 from ._monoid import ADD, MAX, MIN
 from ._vector import Vector
 

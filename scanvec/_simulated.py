@@ -11,8 +11,9 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _local
+from ._checks import check_size
 from ._ledger import Ledger
-from ._machine import SMALLEST_BLOCK, Machine, check_size, round_up
+from ._machine import SMALLEST_BLOCK, Machine, round_up
 from ._monoid import ONE_SIDED, Monoid
 from ._vector import Vector
 

@@ -8,9 +8,9 @@ import jax
 import jax.numpy as jnp
 
 from ._composed import composed
-from ._machine import length_of, machine_of, vectors_of
 from ._monoid import OR
 from ._move import append, get, pack, permute, split
+from ._records import length_of, machine_of, vectors_of
 from ._segments import Segments
 from ._vector import Vector
 

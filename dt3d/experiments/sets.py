@@ -23,7 +23,7 @@ def cube(side: int = 7) -> np.ndarray:
 def dodecahedron() -> np.ndarray:
     """``dodecahedron``: the 20 vertices of the regular dodecahedron, all on one sphere; float64 (20, 3)."""
     phi = (1 + 5**0.5) / 2
-    vertices: list[tuple[float, float, float]] = list(itertools.product((-1.0, 1.0), repeat=3))
+    vertices: list[tuple[float, ...]] = list(itertools.product((-1.0, 1.0), repeat=3))
     for s, t in itertools.product((-1, 1), repeat=2):
         vertices += [(0, s / phi, t * phi), (s / phi, t * phi, 0), (s * phi, 0, t / phi)]
     return np.array(vertices, float)

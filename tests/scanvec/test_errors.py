@@ -154,3 +154,10 @@ def test_a_user_defined_operator_may_have_any_name():
     # the name alone must not make it one of those that send knows
     with pytest.raises(TypeError, match="the operator min cannot combine"):
         sv.send(INTS, INTS - 4, sv.Monoid("min", jnp.add, lambda dtype: 0), INTS)
+
+
+def test_get_takes_a_scalar_for_what_is_outside_the_context():
+    machine = MACHINES[0]
+    v = machine.vector([1, 2, 3])
+    with pytest.raises(TypeError, match="`otherwise` must be a scalar, got Vector"):
+        sv.get(v, machine.iota(3), where=v > 1, otherwise=v)
