@@ -7,7 +7,7 @@
 """
 
 from ._errors import DegenerateInputError, InconsistencyError, InconsistencyWarning
-from ._stats import Progress, Statistics
+from ._stats import InsertionStatistics, Progress, Statistics
 from ._topology import OUTSIDE
 from .delaunay import Delaunay
 
@@ -19,6 +19,7 @@ __all__ = [
     "Delaunay",
     "InconsistencyError",
     "InconsistencyWarning",
+    "InsertionStatistics",
     "Progress",
     "Statistics",
     "__version__",

@@ -9,7 +9,7 @@ import numpy as np
 from ._errors import DegenerateInputError
 
 # Indices of faces (four a tetrahedron, some seven tetrahedra a site) are int32.
-MOST_SITES = 2**26
+MOST_SITES = 2**25
 
 
 def check_points(points: Any) -> np.ndarray:
@@ -39,7 +39,7 @@ def check_points(points: Any) -> np.ndarray:
         msg = "points are empty; a triangulation needs at least four sites"
         raise ValueError(msg)
     if len(given) > MOST_SITES:
-        msg = f"at most 2^26 = {MOST_SITES} sites can be numbered, got {len(given)}"
+        msg = f"at most 2^25 = {MOST_SITES} sites can be numbered, got {len(given)}"
         raise ValueError(msg)
     with np.errstate(over="ignore"):
         array = given.astype(np.float64)
@@ -89,11 +89,42 @@ def affine_dimension(sites: np.ndarray, tolerance: float) -> int:
 def check_volume(sites: np.ndarray, tolerance: float) -> None:
     """Raise DegenerateInputError unless distinct sites (n, 3) in the unit cube span a volume."""
     dimension = affine_dimension(sites, tolerance)
-    if dimension == 3 and len(sites) >= 4:
+    if dimension == 3:
         return
-    where = ["coincide", "lie on a line", "lie on a plane", "span a volume"][dimension]
+    raise no_volume(dimension, len(sites))
+
+
+def no_volume(dimension: int, n: int) -> DegenerateInputError:
+    """The error for n distinct sites whose affine hull has the given dimension, 0, 1 or 2."""
+    where = ["coincide", "lie on a line", "lie on a plane"][dimension]
     msg = (
-        f"a 3D triangulation needs four sites that do not lie on a plane; the {len(sites)} distinct sites "
+        f"a 3D triangulation needs four sites that do not lie on a plane; the {n} distinct sites "
         f"that came {where} (dimension {dimension})"
     )
-    raise DegenerateInputError(msg, dimension)
+    return DegenerateInputError(msg, dimension)
+
+
+def exactly_scaled(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sites times a power of two in the order of their coordinates, and that order: float64 (n, 3), int (n,).
+
+    Scaling is exact, and every coordinate is in the range of the exact predicates.
+
+    Raises
+    ------
+    ValueError
+        If no power of two brings all coordinates into that range: some is over 2^137 times another.
+    """
+    from .predicates import in_range
+
+    order = np.lexsort(sites.T[::-1])
+    greatest = np.abs(sites).max()
+    ordered = sites[order] + 0.0  # no -0.0
+    scaled = np.ldexp(ordered, -int(np.frexp(greatest)[1])) if greatest else ordered
+    if not in_range(scaled):
+        least = np.abs(sites[sites != 0]).min()
+        msg = (
+            f"coordinates from {least:g} to {greatest:g} in magnitude are too far apart for exact insertion "
+            f"(2^137 is possible); set the small ones to zero, or use method='extrapolation'"
+        )
+        raise ValueError(msg)
+    return scaled, order

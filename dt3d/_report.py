@@ -7,16 +7,19 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from ._stats import InsertionStatistics, Statistics
+
 
 class Growth:
     """Prints one line an iteration, as the triangulation grows; to be passed as ``callback``."""
 
-    def __init__(self, console: Console) -> None:
+    def __init__(self, console: Console, left: str = "open faces") -> None:
         self.console = console
+        self.left = left
 
     def __call__(self, progress: Any) -> None:
         if progress.iteration == 1:
-            self.console.print("[dim]iteration   tetrahedra   open faces   seconds[/]")
+            self.console.print(f"[dim]iteration   tetrahedra {self.left:>12s}   seconds[/]")
         self.console.print(
             f"{progress.iteration:9d} {progress.tetrahedra:12,} {progress.open_faces:12,} "
             f"{progress.seconds:9.2f}",
@@ -46,17 +49,25 @@ def stats_table(tri: Any, title: str) -> Table:
     table.add_row("tetrahedra", f"{tetrahedra:,}")
     table.add_row("faces of the hull", f"{len(tri.convex_hull):,}")
     table.add_section()
-    table.add_row("iterations", f"{stats.iterations:,}")
-    table.add_row("found in each", "\n".join(f"{found:,}" for found in stats.tetrahedra_per_iteration))
-    table.add_row("face expansions", f"{stats.face_expansions:,}")
-    table.add_row("expansions per tetrahedron", _ratio(stats.face_expansions, tetrahedra))
-    table.add_row("sites searched per expansion", _ratio(stats.sites_searched, stats.face_expansions))
+    if isinstance(stats, InsertionStatistics):
+        for name in ("walked", "tested", "created"):
+            table.add_row(f"tetrahedra {name} per site", _ratio(getattr(stats, name), len(tri.points)))
+    else:
+        _add_extrapolation(table, stats, tetrahedra)
     table.add_row("inconsistencies", f"{stats.inconsistencies:,}")
     table.add_section()
     for phase, seconds in stats.seconds.items():
         style = "bold" if phase == "total" else None
         table.add_row(f"seconds: {phase}", f"{seconds:.3f}", style=style)
     return table
+
+
+def _add_extrapolation(table: Table, stats: Statistics, tetrahedra: int) -> None:
+    table.add_row("iterations", f"{stats.iterations:,}")
+    table.add_row("found in each", "\n".join(f"{found:,}" for found in stats.tetrahedra_per_iteration))
+    table.add_row("face expansions", f"{stats.face_expansions:,}")
+    table.add_row("expansions per tetrahedron", _ratio(stats.face_expansions, tetrahedra))
+    table.add_row("sites searched per expansion", _ratio(stats.sites_searched, stats.face_expansions))
 
 
 def ledger_table(ledger: Any) -> Table:

@@ -39,15 +39,40 @@ class Statistics:
 
 
 @dataclass(frozen=True)
+class InsertionStatistics:
+    """Counts of an exact insertion.
+
+    Attributes
+    ----------
+    walked : int
+        Steps from tetrahedron to tetrahedron on the way to the sites.
+    tested : int
+        Tetrahedra tested for conflict with a site.
+    created : int
+        Tetrahedra made, ghosts included; most are destroyed by later sites.
+    inconsistencies : int
+        Always 0: every decision is exact.
+    seconds : dict of str to float
+        Wall time by phase, compilation included.
+    """
+
+    walked: int
+    tested: int
+    created: int
+    inconsistencies: int
+    seconds: dict[str, float]
+
+
+@dataclass(frozen=True)
 class Progress:
-    """What the callback gets after every iteration.
+    """What the callback gets: after every iteration of an extrapolation, every stretch of an insertion.
 
     Attributes
     ----------
     iteration : int
-        1, 2, ...
+        1, 2, ...; the number of the stretch.
     open_faces : int
-        Faces that the next iteration will expand; 0 after the last.
+        Faces that the next iteration will expand, 0 after the last; sites not yet inserted.
     tetrahedra : int
         Found so far.
     seconds : float

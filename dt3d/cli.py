@@ -84,7 +84,7 @@ def demo(*, out: Path = Path("out")) -> None:
     console = Console(highlight=False)
     points = mtor()
     console.print(f"{len(points):,} atoms of two mTOR-mLST8 complexes (PDB entry 4JSV)")
-    tri = _triangulate(console, points)
+    tri = _triangulate(console, points, method="extrapolation")
     console.print(stats_table(tri, "mTOR-mLST8, PDB entry 4JSV"))
 
     write_mesh(tri, out / "mtor.vtu")
@@ -101,6 +101,7 @@ def triangulate(
     source: Path,
     *,
     output: Annotated[Path, Parameter(alias="-o")],
+    method: Literal["extrapolation", "insertion"] = "extrapolation",
     machine: Literal["device", "simulated"] | None = None,
     processors: int | None = None,
     dtype: Literal["float64", "float32"] | None = None,
@@ -115,8 +116,11 @@ def triangulate(
         Points: .npy .npz .csv .tsv .txt .xyz .pdb .obj .ply .off .vtk .vtu .vtp .stl
     output
         The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull.
+    method
+        The paper's data-parallel extrapolation, or exact insertion, which is fast.
     machine
-        Where the vectors live: on a device of JAX, or on simulated processors with a ledger of their steps.
+        Where the vectors of an extrapolation live: on a device of JAX, or on simulated processors with a
+        ledger of their steps.
     processors
         Number of simulated processors (32 if left out).
     dtype
@@ -138,10 +142,10 @@ def triangulate(
     console = Console(highlight=False)
     points = read_points(source)
     console.print(f"{len(points):,} points from {source}")
-    tri = _triangulate(console, points, machine=on, dtype=dtype, seed=seed)
+    tri = _triangulate(console, points, method=method, machine=on, dtype=dtype, seed=seed)
     console.print(stats_table(tri, str(source)))
-    if tri.stats.ledger is not None:
-        console.print(ledger_table(tri.stats.ledger))
+    if on is not None and on.ledger is not None:
+        console.print(ledger_table(on.ledger))
     write_mesh(tri, output)
     if picture is not None:
         draw(tri, picture)
@@ -212,8 +216,9 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
 
 
 def _triangulate(console: Console, points: Any, **options: Any) -> Any:
+    left = "sites left" if options["method"] == "insertion" else "open faces"
     with console.status("triangulating (the first iteration includes compilation)"):
-        return dt3d.Delaunay(points, callback=Growth(console), **options)
+        return dt3d.Delaunay(points, callback=Growth(console, left), **options)
 
 
 def _machine(machine: str | None, processors: int | None) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import time
 import warnings
 from collections.abc import Callable
@@ -14,15 +15,16 @@ import scanvec as sv
 
 from . import _topology
 from ._errors import InconsistencyError, InconsistencyWarning
-from ._input import check_points, check_volume, first_copies
-from ._stats import Progress, Statistics
-from .extrapolation import normalise, perturb, triangulate
+from ._input import check_points, check_volume, exactly_scaled, first_copies
+from ._stats import InsertionStatistics, Progress, Statistics
+from .extrapolation import normalise, perturb
+from .extrapolation import triangulate as extrapolate
 
 if TYPE_CHECKING:
     import pyvista
 
-METHODS = ("auto", "extrapolation")
-ROBUSTNESS = ("perturb",)
+METHODS = ("auto", "insertion", "extrapolation")
+ROBUSTNESS = {"insertion": "exact", "extrapolation": "perturb"}  # what each method offers
 
 
 class Delaunay:
@@ -32,20 +34,25 @@ class Delaunay:
     ----------
     points : array_like (n, 3)
         Sites: real, finite, at least four that do not lie on a plane.
-    method : "auto" or "extrapolation"
-        The algorithm. "extrapolation" is the data-parallel one of Teng, Sullivan, Beichl and Puppo (1993).
-    robustness : "perturb"
-        How cospherical sites are decided: by the paper's random linear perturbation of about 1e-9 (float64),
-        with a check of the topology that counts inconsistencies.
+    method : "auto", "insertion" or "extrapolation"
+        "insertion" puts the sites in one by one on a CPU, exactly. "extrapolation" is the data-parallel
+        method of Teng, Sullivan, Beichl and Puppo (1993) on a scanvec machine. "auto" inserts, unless
+        ``machine``, ``robustness="perturb"`` or ``dtype="float32"`` asks for what only extrapolation has.
+    robustness : "exact" or "perturb", optional
+        What the method has, if left out. "exact" (insertion): all decisions are right, cospherical sites are
+        decided by a symbolic perturbation, and the result does not depend on their order. "perturb"
+        (extrapolation): cospherical sites are decided by the paper's random linear perturbation of about
+        1e-9, with a check of the topology that counts inconsistencies.
     machine : scanvec.Machine, optional
-        Where it runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All machines
-        give the same tetrahedra.
+        Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
+        machines give the same tetrahedra.
     dtype : float64 or float32, optional
         Working precision, float64 by default. Single precision is for experiments: it decides less.
     seed : int
-        Of the perturbation.
+        Of the perturbation, or of the order of insertion (which does not change the result).
     callback : callable, optional
-        Called with a `Progress` after every iteration. What it raises ends the triangulation.
+        Called with a `Progress` after every iteration, or stretch of 100,000 sites inserted. What it raises
+        ends the triangulation.
 
     Attributes
     ----------
@@ -56,11 +63,11 @@ class Delaunay:
     neighbors : ndarray of int32 (m, 4)
         The k-th is the tetrahedron opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
     iteration : ndarray of int32 (m,)
-        The iteration, from 1, that found each tetrahedron.
+        The iteration, from 1, that found each tetrahedron; 1 for all by insertion.
     duplicates : ndarray of int32 (k, 2)
         A site that was not used, and the equal site that was.
-    stats : Statistics
-        Counts and times.
+    stats : Statistics or InsertionStatistics
+        Counts and times, of what the method counts.
 
     Raises
     ------
@@ -90,36 +97,68 @@ class Delaunay:
     neighbors: np.ndarray
     iteration: np.ndarray
     duplicates: np.ndarray
-    stats: Statistics
+    stats: Statistics | InsertionStatistics
 
     def __init__(
         self,
         points: Any,
         *,
         method: str = "auto",
-        robustness: str = "perturb",
+        robustness: str | None = None,
         machine: sv.Machine | None = None,
         dtype: Any = None,
         seed: int = 0,
         callback: Callable[[Progress], Any] | None = None,
     ) -> None:
         begun = time.perf_counter()
-        _check_choice("method", method, METHODS)
-        _check_choice("robustness", robustness, ROBUSTNESS)
-        machine = _check_machine(machine)
         working = _check_dtype(dtype)
         _check_seed(seed)
         if callback is not None and not callable(callback):
             msg = f"callback must be callable, got {callback!r}"
             raise ValueError(msg)
+        method = _check_method(method, robustness, machine, working)
         self.points = check_points(points)
-        sites, used, self.duplicates = _prepare(self.points, working, seed)
 
-        def report(iteration: int, open_faces: int, tetrahedra: int) -> None:
+        def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
-                callback(Progress(iteration, open_faces, tetrahedra, time.perf_counter() - begun))
+                callback(Progress(iteration, left, tetrahedra, time.perf_counter() - begun))
 
-        outcome = triangulate(machine, sites, report)
+        if method == "insertion":
+            self._insert(seed, report, begun)
+        else:
+            self._extrapolate(sv.Device() if machine is None else machine, working, seed, report, begun)
+
+    def _insert(self, seed: int, report: Callable[[int, int, int], None], begun: float) -> None:
+        from .insertion import triangulate
+
+        used, self.duplicates = first_copies(self.points)
+        sites, order = exactly_scaled(self.points[used])
+        used = used[order]
+        stretches = itertools.count(1)
+        outcome = triangulate(
+            sites, seed, lambda sites_in, made: report(next(stretches), len(used) - sites_in, made)
+        )
+        self.simplices = used.astype(np.int32)[outcome.simplices]
+        self.neighbors = outcome.neighbors
+        self.iteration = np.ones(len(self.simplices), np.int32)
+        self.stats = InsertionStatistics(
+            walked=outcome.walked,
+            tested=outcome.tested,
+            created=outcome.created,
+            inconsistencies=0,
+            seconds=outcome.seconds | {"total": time.perf_counter() - begun},
+        )
+
+    def _extrapolate(
+        self,
+        machine: sv.Machine,
+        working: np.dtype,
+        seed: int,
+        report: Callable[[int, int, int], None],
+        begun: float,
+    ) -> None:
+        sites, used, self.duplicates = _prepare(self.points, working, seed)
+        outcome = extrapolate(machine, sites, report)
         self.simplices = used[outcome.simplices].astype(np.int32)
         self.neighbors = outcome.neighbors
         self.iteration = outcome.iteration
@@ -138,7 +177,7 @@ class Delaunay:
                 f"the triangulation has {inconsistencies} inconsistencies: tetrahedra that contradict others "
                 f"were left out, so it may have holes or overlaps. Try another seed, or dtype='float64'"
             )
-            warnings.warn(msg, InconsistencyWarning, stacklevel=2)
+            warnings.warn(msg, InconsistencyWarning, stacklevel=3)
 
     def _count_faults(self, used: np.ndarray) -> int:
         """Open hull edges and flat or turned tetrahedra; raises where a site was lost."""
@@ -171,19 +210,34 @@ class Delaunay:
         return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
 
 
-def _check_choice(name: str, value: Any, allowed: tuple[str, ...]) -> None:
-    if value not in allowed:
-        msg = f"{name} must be {' or '.join(map(repr, allowed))}, got {value!r}"
+def _check_method(method: Any, robustness: Any, machine: Any, dtype: np.dtype) -> str:
+    """The method that the options ask for."""
+    if method not in METHODS:
+        msg = f"method must be {', '.join(map(repr, METHODS[:-1]))} or {METHODS[-1]!r}, got {method!r}"
         raise ValueError(msg)
-
-
-def _check_machine(machine: Any) -> sv.Machine:
-    if machine is None:
-        return sv.Device()
-    if not isinstance(machine, sv.Machine):
+    if robustness not in (None, *ROBUSTNESS.values()):
+        msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
+        raise ValueError(msg)
+    if machine is not None and not isinstance(machine, sv.Machine):
         msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
         raise ValueError(msg)
-    return machine
+    only_extrapolation = machine is not None or robustness == "perturb" or dtype == np.float32
+    if method == "auto":
+        method = "extrapolation" if only_extrapolation else "insertion"
+    if method == "insertion" and only_extrapolation:
+        msg = (
+            "method='insertion' is exact, in float64 and on this CPU; machine, robustness='perturb' and "
+            "dtype='float32' go with method='extrapolation'"
+        )
+        raise ValueError(msg)
+    if robustness not in (None, ROBUSTNESS[method]):
+        msg = (
+            f"method={method!r}, which a machine or dtype='float32' implies, does not have "
+            f"robustness={robustness!r} yet; leave both out for exact insertion, or use "
+            f"robustness={ROBUSTNESS[method]!r}"
+        )
+        raise ValueError(msg)
+    return method
 
 
 def _check_dtype(dtype: Any) -> np.dtype:

@@ -24,7 +24,7 @@ def main(argv: list[str] | None = None) -> None:
     options = parser.parse_args(argv)
 
     points = np.random.default_rng(0).random((options.sites, 3))
-    tri = dt3d.Delaunay(points)
+    tri = dt3d.Delaunay(points, method="extrapolation")
 
     a, b, c, d = tri.points[tri.simplices[0]]
     volume = np.linalg.det([b - a, c - a, d - a]) / 6

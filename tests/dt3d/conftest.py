@@ -58,3 +58,17 @@ def shared_points():
             return file["points"]
 
     return load
+
+
+@pytest.fixture
+def shared_cases():
+    """A loader of predicate cases (m, k, d) and signs (m,), as `shared_points`."""
+    folder = Path(__file__).parents[3] / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip(f"the predicate cases are not at {folder}")
+
+    def load(name):
+        with np.load(folder / f"{name}.npz") as file:
+            return file["cases"], file["sign"]
+
+    return load

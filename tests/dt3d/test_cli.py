@@ -46,7 +46,7 @@ def test_triangulate_writes_a_mesh_and_prints_its_counts(points, tmp_path, capsy
     assert err == ""
     assert picture.read_bytes().startswith(b"\x89PNG")
 
-    tri = dt3d.Delaunay(np.load(points))
+    tri = dt3d.Delaunay(np.load(points), method="extrapolation")
     written = read_mesh(mesh)
     np.testing.assert_array_equal(written.simplices, tri.simplices)
     assert row(out, "sites") == "61"
@@ -61,6 +61,17 @@ def test_triangulate_writes_a_mesh_and_prints_its_counts(points, tmp_path, capsy
     # a line for each iteration, the last of which has all tetrahedra and no open face
     growth = re.findall(r"^ +(\d+) +([\d,]+) +([\d,]+) +[\d.]+$", out, re.MULTILINE)
     assert [int(line[0]) for line in growth] == list(range(1, tri.stats.iterations + 1))
+
+
+def test_triangulate_by_insertion(points, tmp_path, capsys):
+    mesh = tmp_path / "mesh.npz"
+    assert cli.main(["triangulate", str(points), "-o", str(mesh), "--method", "insertion"]) == 0
+    out = capsys.readouterr().out
+    tri = dt3d.Delaunay(np.load(points), method="insertion")
+    np.testing.assert_array_equal(read_mesh(mesh).simplices, tri.simplices)
+    assert "sites left" in out
+    assert row(out, "tetrahedra") == f"{len(tri.simplices):,}"
+    assert row(out, "tetrahedra tested per site") == f"{tri.stats.tested / 61:.2f}"
 
 
 def test_simulated_machine_prints_its_ledger(points, tmp_path, capsys):

@@ -89,9 +89,10 @@ DEGENERATE = {
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
 @pytest.mark.parametrize("name", DEGENERATE)
-def test_degenerate_sets(name):
-    tri = dt3d.Delaunay(DEGENERATE[name])
+def test_degenerate_sets(name, method):
+    tri = dt3d.Delaunay(DEGENERATE[name], method=method)
     validate(tri)
     assert tri.stats.inconsistencies == 0
 
@@ -103,30 +104,33 @@ def test_the_papers_cube():
     validate(tri)
 
 
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
 @pytest.mark.parametrize("n", [4, 5, 30])
-def test_few_sites(n):
-    validate(dt3d.Delaunay(np.random.default_rng(n).random((n, 3))))
+def test_few_sites(n, method):
+    validate(dt3d.Delaunay(np.random.default_rng(n).random((n, 3)), method=method))
 
 
-def test_order_scale_and_place_do_not_matter():
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+def test_order_scale_and_place_do_not_matter(method):
     points = np.round(np.random.default_rng(1).random((150, 3)) * 2**20) / 2**20
-    tri = dt3d.Delaunay(points)
+    tri = dt3d.Delaunay(points, method=method)
     want = as_coordinates(points, tri.simplices)
     shuffled = np.random.default_rng(2).permutation(points)
-    assert as_coordinates(shuffled, dt3d.Delaunay(shuffled).simplices) == want
+    assert as_coordinates(shuffled, dt3d.Delaunay(shuffled, method=method).simplices) == want
     for exponent in (-1000, -200, 200, 1000):
         scaled = np.ldexp(points, exponent)
-        assert as_coordinates(points, dt3d.Delaunay(scaled).simplices) == want
+        assert as_coordinates(points, dt3d.Delaunay(scaled, method=method).simplices) == want
     moved = points + 2.0**30  # exact
-    assert as_coordinates(points, dt3d.Delaunay(moved).simplices) == want
+    assert as_coordinates(points, dt3d.Delaunay(moved, method=method).simplices) == want
     reflected = points * [1, 1, -1]
-    assert as_coordinates(points, dt3d.Delaunay(reflected).simplices) == want
+    assert as_coordinates(points, dt3d.Delaunay(reflected, method=method).simplices) == want
 
 
-def test_another_seed_gives_the_same_tetrahedra_of_sites_in_general_position():
+def test_methods_and_seeds_agree_on_sites_in_general_position():
     points = np.random.default_rng(3).random((200, 3))
-    one, two = dt3d.Delaunay(points), dt3d.Delaunay(points, seed=7)
-    np.testing.assert_array_equal(canonical(one.simplices), canonical(two.simplices))
+    want = canonical(dt3d.Delaunay(points).simplices)
+    for options in ({"seed": 7}, {"method": "extrapolation"}, {"robustness": "perturb", "seed": 7}):
+        np.testing.assert_array_equal(canonical(dt3d.Delaunay(points, **options).simplices), want)
 
 
 def test_machines_report_the_same_counts():

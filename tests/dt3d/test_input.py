@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import dt3d
+import scanvec as sv
 
 from .exact import validate
 
 RNG = np.random.default_rng(0)
 POINTS = RNG.random((20, 3))
+DYADIC = np.round(POINTS * 2**20) / 2**20
 
 
 def with_value(value):
@@ -49,13 +51,14 @@ def test_what_is_no_set_of_points(points, message):
         (POINTS[:2], 1, "lie on a line"),
         (POINTS * [1, 1, 0], 2, "lie on a plane"),
         (POINTS[:3], 2, "lie on a plane"),
-        (np.c_[POINTS[:, :2], POINTS[:, :2].sum(axis=1)], 2, "lie on a plane"),
+        (np.c_[DYADIC[:, :2], DYADIC[:, :2].sum(axis=1)], 2, "lie on a plane"),  # without rounding
         (np.concatenate([POINTS[:3], POINTS[:3]]), 2, "the 3 distinct sites"),
     ],
 )
-def test_sets_without_volume(points, dimension, words):
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+def test_sets_without_volume(points, dimension, words, method):
     with pytest.raises(dt3d.DegenerateInputError, match=words) as caught:
-        dt3d.Delaunay(points)
+        dt3d.Delaunay(points, method=method)
     assert caught.value.dimension == dimension
     assert f"dimension {dimension}" in str(caught.value)
     assert isinstance(caught.value, ValueError)
@@ -64,8 +67,12 @@ def test_sets_without_volume(points, dimension, words):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"method": "flip"}, "method must be 'auto' or 'extrapolation', got 'flip'"),
-        ({"robustness": "none"}, "robustness must be 'perturb', got 'none'"),
+        ({"method": "flip"}, "method must be 'auto', 'insertion' or 'extrapolation', got 'flip'"),
+        ({"robustness": "none"}, "robustness must be 'exact' or 'perturb', got 'none'"),
+        ({"method": "insertion", "robustness": "perturb"}, "go with method='extrapolation'"),
+        ({"method": "insertion", "machine": sv.Device()}, "go with method='extrapolation'"),
+        ({"method": "insertion", "dtype": "float32"}, "go with method='extrapolation'"),
+        ({"machine": sv.Device(), "robustness": "exact"}, "does not have robustness='exact' yet"),
         ({"dtype": "float16"}, "dtype must be float64 or float32, got 'float16'"),
         ({"dtype": "no"}, "dtype must be float64 or float32, got 'no'"),
         ({"machine": "gpu"}, "machine must be a scanvec machine"),
@@ -106,16 +113,31 @@ def test_the_input_is_not_changed():
     np.testing.assert_array_equal(dt3d.Delaunay(points).points, POINTS)
 
 
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
 @pytest.mark.parametrize("exponent", [-1060, -300, 300, 1020])
-def test_extreme_magnitudes(exponent):
+def test_extreme_magnitudes(exponent, method):
     points = np.ldexp(np.round(POINTS * 4096), exponent - 12)
-    validate(dt3d.Delaunay(points))
+    validate(dt3d.Delaunay(points, method=method))
 
 
-def test_far_from_the_origin():
-    validate(dt3d.Delaunay(POINTS + 1e6))
+def test_magnitudes_that_exact_insertion_cannot_hold_together():
+    points = np.concatenate([POINTS, [[1e-50, 0, 0]]])
+    with pytest.raises(ValueError, match="1e-50 to 0.9.* too far apart for exact insertion"):
+        dt3d.Delaunay(points)
 
 
-def test_differences_that_would_overflow():
-    points = (np.round(POINTS * 2**20) / 2**20 * 2 - 1) * 1.7e308
-    validate(dt3d.Delaunay(points))
+def test_a_plane_up_to_rounding_has_volume_for_exact_insertion():
+    points = np.c_[POINTS[:, :2], POINTS[:, :2].sum(axis=1) / 3]
+    validate(dt3d.Delaunay(points, method="insertion"))
+    with pytest.raises(dt3d.DegenerateInputError, match="lie on a plane"):
+        dt3d.Delaunay(points, method="extrapolation")
+
+
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+def test_far_from_the_origin(method):
+    validate(dt3d.Delaunay(POINTS + 1e6, method=method))
+
+
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+def test_differences_that_would_overflow(method):
+    validate(dt3d.Delaunay((DYADIC * 2 - 1) * 1.7e308, method=method))

@@ -17,7 +17,8 @@ def on_sphere(n):
 
 def test_progress_is_reported_after_every_iteration():
     seen = []
-    tri = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), callback=seen.append)
+    points = np.random.default_rng(0).random((100, 3))
+    tri = dt3d.Delaunay(points, method="extrapolation", callback=seen.append)
     assert [p.iteration for p in seen] == list(range(1, tri.stats.iterations + 1))
     assert [p.tetrahedra for p in seen] == np.cumsum(tri.stats.tetrahedra_per_iteration).tolist()
     assert seen[-1].open_faces == 0
@@ -34,7 +35,7 @@ def test_what_a_callback_raises_ends_the_run_within_an_iteration(error):
         raise error
 
     with pytest.raises(error):
-        dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), callback=stop)
+        dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), method="extrapolation", callback=stop)
     assert len(seen) == 1
 
 
@@ -52,7 +53,7 @@ def test_a_few_inconsistencies_are_counted_and_warned_of():
 
 
 def test_the_same_spheres_are_finished_in_double_precision():
-    tri = dt3d.Delaunay(on_sphere(300))
+    tri = dt3d.Delaunay(on_sphere(300), method="extrapolation")
     assert tri.stats.inconsistencies == 0
     check_neighbors(tri)
     assert len(tri.convex_hull) == 2 * 300 - 4  # Euler: all sites are on the hull
@@ -80,3 +81,18 @@ def test_a_run_in_circles_ends(monkeypatch):
     monkeypatch.setattr(loop, "bury", lambda dead, new, first: (dead, new, 0))
     with pytest.raises(dt3d.InconsistencyError):
         dt3d.Delaunay(np.random.default_rng(0).random((30, 3)), machine=sv.Device())
+
+
+def test_insertion_reports_every_stretch_and_stops(monkeypatch):
+    monkeypatch.setattr("dt3d.insertion.loop.STRETCH", 40)
+    points = np.random.default_rng(0).random((100, 3))
+    seen = []
+    dt3d.Delaunay(points, method="insertion", callback=seen.append)
+    assert [p.iteration for p in seen] == [1, 2, 3]
+    assert [p.open_faces for p in seen] == [56, 16, 0]  # four sites are the first tetrahedron
+
+    def stop(progress):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        dt3d.Delaunay(points, method="insertion", callback=stop)
