@@ -1,4 +1,4 @@
-"""The command line: `dt3d demo`, `dt3d triangulate`, `dt3d view`, `dt3d experiment`.
+"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`.
 
 Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C with status 130.
 """
@@ -150,6 +150,30 @@ def triangulate(
     if picture is not None:
         draw(tri, picture)
     console.print(f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
+
+
+@app.command
+def verify(file: Path) -> None:
+    """Check with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
+
+    Prints a sentence for each invariant; the exit status is 1 if one is broken.
+
+    Parameters
+    ----------
+    file
+        A mesh of tetrahedra, positively oriented: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+    """
+    from .files import read_mesh
+    from .verification import verify as check
+
+    mesh = read_mesh(file)
+    outcome = check(mesh.points, mesh.simplices)
+    verdict = "a Delaunay triangulation" if outcome else "NOT a Delaunay triangulation"
+    console = Console(highlight=False)
+    console.print(str(outcome), markup=False, soft_wrap=True)
+    console.print(f"{file}: {verdict}", markup=False, soft_wrap=True)
+    if not outcome:
+        sys.exit(1)
 
 
 @app.command

@@ -23,6 +23,8 @@ from .extrapolation import triangulate as extrapolate
 if TYPE_CHECKING:
     import pyvista
 
+    from .verification import Verification
+
 METHODS = ("auto", "insertion", "extrapolation")
 ROBUSTNESS = {"insertion": "exact", "extrapolation": "perturb"}  # what each method offers
 
@@ -196,6 +198,22 @@ class Delaunay:
     def convex_hull(self) -> np.ndarray:
         """Facets of the convex hull, int32 (h, 3), oriented outwards (counter-clockwise from outside)."""
         return _topology.hull_facets(self.simplices, self.neighbors)
+
+    def verify(self) -> Verification:
+        """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails.
+
+        A result of insertion is also checked to be the one triangulation that the symbolic perturbation
+        defines.
+        """
+        from .verification import verify
+
+        return verify(
+            self.points,
+            self.simplices,
+            neighbors=self.neighbors,
+            duplicates=self.duplicates,
+            perturbed=isinstance(self.stats, InsertionStatistics),
+        )
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
         """The tetrahedra as a PyVista grid with cell data "iteration" and "volume".

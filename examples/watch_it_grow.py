@@ -25,7 +25,8 @@ def main(argv: list[str] | None = None) -> None:
     options = parser.parse_args(argv)
     options.folder.mkdir(parents=True, exist_ok=True)
 
-    tri = dt3d.Delaunay(np.random.default_rng(1).random((options.sites, 3)))
+    points = np.random.default_rng(1).random((options.sites, 3))
+    tri = dt3d.Delaunay(points, method="extrapolation")
 
     found = 0
     for iteration, new in enumerate(tri.stats.tetrahedra_per_iteration, start=1):

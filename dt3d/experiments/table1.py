@@ -12,6 +12,7 @@ import numpy as np
 
 import scanvec as sv
 
+from .._stats import Statistics
 from ..delaunay import Delaunay
 from . import sets
 
@@ -95,6 +96,7 @@ def measure(points: np.ndarray, machine: sv.Machine) -> Measured:
     """One run of the paper's method on a machine."""
     tri = Delaunay(points, method="extrapolation", robustness="perturb", machine=machine)
     s = tri.stats
+    assert isinstance(s, Statistics)  # what extrapolation counts
     return Measured(
         tetrahedra=len(tri.simplices),
         depth=s.iterations,

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from ..predicates.filtered import in_sphere, orient3d
+from ..predicates.perturbed import inside, orientation_with
 
 INFINITE = -1
 DEAD = -2
@@ -27,38 +27,6 @@ FULL = 1
 
 # places of `state`
 NEXT, SLOTS, FREE, LAST, STAMP, WALKED, TESTED, CREATED = range(8)
-
-
-@numba.njit(cache=True)
-def _inside_tied(points, rank, v, site, w):
-    """The perturbed in-sphere test of a site on the circumsphere of tetrahedron v, a tuple of four sites.
-
-    The lifted site is below the hyperplane of the lifted vertices iff e_p < sum of l_i e_i, with its
-    barycentric coordinates l_i. Of the five in the order of `rank`, each e infinitely larger than the next,
-    the first whose coefficient is not zero decides.
-    """
-    done = -1
-    while True:
-        first, least = 4, rank[site]
-        for i in range(4):
-            if done < rank[v[i]] < least:
-                first, least = i, rank[v[i]]
-        if first == 4:
-            return False
-        sign = _orientation_with(points, v, first, site, w)
-        if sign != 0:
-            return sign > 0
-        done = least
-
-
-@numba.njit(cache=True)
-def _orientation_with(points, v, k, site, w):
-    """Orientation of a tetrahedron with the site in the place of its k-th vertex."""
-    a = site if k == 0 else v[0]
-    b = site if k == 1 else v[1]
-    c = site if k == 2 else v[2]
-    d = site if k == 3 else v[3]
-    return orient3d(points, a, b, c, d, w)
 
 
 @numba.njit(cache=True)
@@ -85,15 +53,12 @@ def _conflicts(points, rank, vertices, neighbors, t, site, w):
     ghost = _infinite_corner(v)
     if ghost >= 0:
         # the site in the place of the infinite vertex: beyond the facet, or on its plane
-        sign = _orientation_with(points, v, ghost, site, w)
+        sign = orientation_with(points, v, ghost, site, w)
         if sign != 0:
             return sign > 0
         # the sphere of the tetrahedron within meets the plane in the facet's circle
         v = _corners(vertices, neighbors[t, ghost] >> 2)
-    sign = in_sphere(points, v[0], v[1], v[2], v[3], site, w)
-    if sign != 0:
-        return sign > 0
-    return _inside_tied(points, rank, v, site, w)
+    return inside(points, rank, v, site, w)
 
 
 @numba.njit(cache=True)
@@ -110,7 +75,7 @@ def _walk(points, vertices, neighbors, t, site, w):
         moved = False
         for i in range(4):
             k = (i + steps) & 3  # another first facet each time
-            if k != came and _orientation_with(points, v, k, site, w) < 0:
+            if k != came and orientation_with(points, v, k, site, w) < 0:
                 step = neighbors[t, k]
                 t, came = step >> 2, step & 3
                 steps += 1

@@ -70,8 +70,8 @@ def triangulate(
     simplices, neighbors = compact(store.arrays[0], store.arrays[1], store.state[SLOTS])
     simplices = along_curve.astype(np.int32)[simplices]
     seconds["compaction"] = time.perf_counter() - begun
-    counts = (int(store.state[k]) for k in (WALKED, TESTED, CREATED))
-    return Outcome(simplices, neighbors, *counts, seconds)
+    state = store.state
+    return Outcome(simplices, neighbors, int(state[WALKED]), int(state[TESTED]), int(state[CREATED]), seconds)
 
 
 class _Store:
@@ -87,7 +87,7 @@ class _Store:
             # beyond the facet orientation is reversed, so two of its vertices change places
             i, j = (k + 1) % 4, (k + 2) % 4
             vertices[1 + k, [i, j]] = vertices[1 + k, [j, i]]
-        facets = {}
+        facets: dict[frozenset[int], list[tuple[int, int]]] = {}
         for t in range(5):
             for k in range(4):
                 facets.setdefault(frozenset(np.delete(vertices[t], k).tolist()), []).append((t, k))
@@ -96,7 +96,7 @@ class _Store:
         self.state = np.zeros(8, np.int64)
         self.state[SLOTS] = 5
         self.state[LAST] = 0
-        self.arrays = (
+        self.arrays: tuple[np.ndarray, ...] = (
             vertices,
             neighbors,
             np.empty(slots, np.int32),  # free
