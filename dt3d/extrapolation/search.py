@@ -101,7 +101,8 @@ def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
 def _round(buckets: Buckets, state: Search, steps: _Steps) -> tuple[Search, sv.Vector, int]:
     machine, grid = buckets.origin.machine, buckets.grid
     counts = machine.map(_cells_to_open, state.new, state.dead)
-    going = machine.map(_fits, sv.scan(counts, sv.ADD))
+    # added up in 64 bits: thousands of faces may ask for all of thousands of cells
+    going = machine.map(_fits, sv.scan(counts.astype(np.int64), sv.ADD))
     counts = machine.map(_if, going, counts, 0)
 
     # requests: one for each cell that a query opens

@@ -46,17 +46,19 @@ def two_product(a, b):
 
 
 @numba.njit(cache=True)
+def _append(w, at, n, x):
+    """Make x the next component of the expansion of length n at w[at], unless it is zero; the new length."""
+    if x == 0.0:
+        return n
+    w[at + n] = x
+    return n + 1
+
+
+@numba.njit(cache=True)
 def difference(w, at, a, b):
     """Put a - b at w[at]; returns its length, at most 2."""
     s, r = two_sum(a, -b)
-    n = 0
-    if r != 0.0:
-        w[at] = r
-        n = 1
-    if s != 0.0:
-        w[at + n] = s
-        n += 1
-    return n
+    return _append(w, at, _append(w, at, 0, r), s)
 
 
 @numba.njit(cache=True)
@@ -85,13 +87,8 @@ def add(w, e, ne, f, nf, h):
             first = False
             continue
         q, r = two_sum(q, x)
-        if r != 0.0:
-            w[h + n] = r
-            n += 1
-    if q != 0.0:
-        w[h + n] = q
-        n += 1
-    return n
+        n = _append(w, h, n, r)
+    return _append(w, h, n, q)
 
 
 @numba.njit(cache=True)
@@ -106,25 +103,15 @@ def scale(w, e, ne, b, h):
     """Put b times an expansion at w[h], apart from it; returns its length, at most 2 ne."""
     if ne == 0 or b == 0.0:
         return 0
-    n = 0
     q, r = two_product(w[e], b)
-    if r != 0.0:
-        w[h] = r
-        n = 1
+    n = _append(w, h, 0, r)
     for i in range(1, ne):
         p, low = two_product(w[e + i], b)
         q, r = two_sum(q, low)
-        if r != 0.0:
-            w[h + n] = r
-            n += 1
+        n = _append(w, h, n, r)
         q, r = two_sum(p, q)
-        if r != 0.0:
-            w[h + n] = r
-            n += 1
-    if q != 0.0:
-        w[h + n] = q
-        n += 1
-    return n
+        n = _append(w, h, n, r)
+    return _append(w, h, n, q)
 
 
 @numba.njit(cache=True)

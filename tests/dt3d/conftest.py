@@ -47,28 +47,31 @@ def cube():
 
 
 @pytest.fixture
-def shared_points():
-    """A loader of point sets that lie beside the checkout on some machines; elsewhere the test is skipped."""
+def shared_folder():
+    """Point sets that lie beside the checkout on some machines; elsewhere the test is skipped."""
     folder = Path(__file__).parents[3] / "shared" / "data"
     if not folder.is_dir():
         pytest.skip(f"the point sets are not at {folder}")
+    return folder
+
+
+@pytest.fixture
+def shared_points(shared_folder):
+    """A loader of point sets (n, 3) by name."""
 
     def load(name):
-        with np.load(folder / f"{name}.npz") as file:
+        with np.load(shared_folder / f"{name}.npz") as file:
             return file["points"]
 
     return load
 
 
 @pytest.fixture
-def shared_cases():
-    """A loader of predicate cases (m, k, d) and signs (m,), as `shared_points`."""
-    folder = Path(__file__).parents[3] / "shared" / "data"
-    if not folder.is_dir():
-        pytest.skip(f"the predicate cases are not at {folder}")
+def shared_cases(shared_folder):
+    """A loader of predicate cases (m, k, d) and their signs (m,) by name."""
 
     def load(name):
-        with np.load(folder / f"{name}.npz") as file:
+        with np.load(shared_folder / f"{name}.npz") as file:
             return file["cases"], file["sign"]
 
     return load
