@@ -20,6 +20,7 @@ from ..predicates.perturbed import inside, orientation_with
 
 INFINITE = -1
 DEAD = -2
+UNKNOWN = -1  # in `neighbors`: not found yet
 
 # what `insert` returns when it could not go on
 DONE = 0
@@ -150,6 +151,7 @@ def insert(points, rank, order, store, state, stop, w):
                 state[SLOTS] += 1
             for i in range(4):
                 vertices[new, i] = vertices[t, i]
+                neighbors[new, i] = UNKNOWN
             vertices[new, k] = site
             marks[new] = 0
             outer = neighbors[t, k]
@@ -159,8 +161,8 @@ def insert(points, rank, order, store, state, stop, w):
             t, k = rim[f] >> 2, rim[f] & 3
             new = made[4 * t + k]
             for j in range(4):
-                if j == k:
-                    continue
+                if neighbors[new, j] != UNKNOWN:
+                    continue  # the outer one, or found from its other side
                 # Turn about the edge that facets j and k of t share, through the cavity, to its boundary.
                 # The star tetrahedron there has the edge and the site too; its fourth vertex is `turning`.
                 turning = vertices[t, k]
@@ -176,7 +178,7 @@ def insert(points, rank, order, store, state, stop, w):
                 other = made[4 * last + leave]
                 for i in range(4):
                     if vertices[other, i] == turning:
-                        neighbors[new, j] = 4 * other + i
+                        link(neighbors, new, j, other, i)
         for i in range(size):
             vertices[cavity[i], 0] = DEAD
             free[state[FREE]] = cavity[i]
