@@ -98,15 +98,21 @@ def draw(
     for k, view in enumerate(views):
         ax = figure.add_axes(((k + 0.02) * width / whole, 0.02, 0.96 * width / whole, 0.92))
         paint(tri, ax, view, title_size=size)
+    if last > 1:
+        axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
+        _add_scale(mpl, figure, axes, last, size)
+    figure.savefig(path)
+
+
+def _add_scale(mpl: Any, figure: Any, axes: Any, last: int, size: float) -> None:
+    """The colour bar of the iterations."""
     colors = mpl.colors.ListedColormap(_palette(mpl, last))
     norm = mpl.colors.BoundaryNorm(np.arange(0.5, last + 1), last)
-    axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
     ticks = range(1, last + 1, -(-last // 12))
     scale = figure.colorbar(mpl.cm.ScalarMappable(norm, colors), cax=axes, ticks=ticks)
     scale.set_label("found in iteration", size=size, labelpad=size)
     scale.ax.tick_params(labelsize=size, length=0)
     scale.outline.set_visible(False)
-    figure.savefig(path)
 
 
 def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:  # noqa: B008
@@ -178,9 +184,14 @@ def check_picture_path(path: str | Path) -> Path:
 
 
 def _palette(mpl: Any, last: int) -> np.ndarray:
-    """A colour for every iteration from 1 to the last: float64 (last, 3)."""
+    """A colour for every iteration from 1 to the last: float64 (last, 3).
+
+    Where there is one only, as by insertion, there is nothing to tell apart: one light colour.
+    """
+    if last == 1:
+        return np.array([mpl.colors.to_rgb("#9ecae1")])
     # from blue through pale yellow to red: told apart by colour-blind eyes, and under light and shade
-    return mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, max(last, 2)))[:last, :3]
+    return mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, last))[:, :3]
 
 
 def _camera(view: View) -> np.ndarray:

@@ -97,3 +97,14 @@ def test_errors(cube, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ImportError, match=r"a picture needs matplotlib.*pip install 'dt3d\[view\]'"):
         draw(cube, tmp_path / "a.png")
+
+
+def test_one_iteration_needs_no_scale(cube, tmp_path):
+    draw(cube, tmp_path / "several.png", width=200, height=200)
+    cube.iteration[:] = 1
+    draw(cube, tmp_path / "one.png", width=200, height=200)
+    several, one = (Image.imread(tmp_path / name) for name in ("several.png", "one.png"))
+    assert several.shape == one.shape
+    bar = slice(201, None)  # columns to the right of the panel
+    assert (several[:, bar, :3] < 1).any()
+    assert (one[:, bar, :3] == 1).all()
