@@ -120,7 +120,13 @@ def triangulate(
 def _distinct_facets(buckets: Buckets) -> Face:
     """First facets, each once: vertices in ascending order."""
     machine = buckets.origin.machine
-    low, mid, high, _ = machine.map(face_key, Face(*first_facets(buckets)))
+    facets = Face(*first_facets(buckets))
+    # a site whose nearest one is so near that all triangles with both look flat waits for others' faces
+    facets = sv.pack(facets, facets.c != NO_SITE)
+    if not len(facets.a):
+        msg = "no three sites form a triangle that this precision can tell from a flat one"
+        raise InconsistencyError(msg, 0)
+    low, mid, high, _ = machine.map(face_key, facets)
     return Face(*sv.unique((low, mid, high)))
 
 
@@ -134,7 +140,7 @@ def _give_up_if_hopeless(out: Outcome, total: int, n: int) -> None:
         msg = (
             f"{out.inconsistencies} inconsistencies among {total} tetrahedra after "
             f"{len(out.per_iteration)} iterations: sites too close to cospherical for this precision and "
-            f"perturbation. Use dtype='float64' if it was float32, another seed, or an exact method"
+            f"perturbation. Use method='insertion', which is exact; or dtype='float64', or another seed"
         )
         raise InconsistencyError(msg, out.inconsistencies)
 

@@ -96,3 +96,10 @@ def test_insertion_reports_every_stretch_and_stops(monkeypatch):
 
     with pytest.raises(KeyboardInterrupt):
         dt3d.Delaunay(points, method="insertion", callback=stop)
+
+
+def test_sites_too_near_for_a_first_facet_end_with_an_error_that_says_so():
+    points = np.random.default_rng(0).random((60, 3))
+    points[:20] *= 1e-170  # squared areas of triangles with two of these underflow
+    with pytest.raises(dt3d.InconsistencyError, match=r"sites are in no tetrahedron|inconsistencies|flat"):
+        dt3d.Delaunay(points, method="extrapolation")
