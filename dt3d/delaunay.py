@@ -177,7 +177,7 @@ class Delaunay:
         if inconsistencies:
             msg = (
                 f"the triangulation has {inconsistencies} inconsistencies: tetrahedra that contradict others "
-                f"were left out, so it may have holes or overlaps. Use method='insertion', which is exact; or "
+                f"were left out, so it may have holes or overlaps. Use method='insertion' (exact), "
                 f"dtype='float64', or another seed"
             )
             warnings.warn(msg, InconsistencyWarning, stacklevel=3)
@@ -188,7 +188,8 @@ class Delaunay:
         if len(missing):
             msg = (
                 f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation "
-                f"does not decide this set. Use method='insertion', which is exact; or another seed, or float64"
+                f"does not decide this set. Use method='insertion', which is exact, or dtype='float64', or "
+                f"another seed"
             )
             raise InconsistencyError(msg, len(missing))
         corners = normalise(self.points)[self.simplices]

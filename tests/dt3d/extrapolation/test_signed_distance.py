@@ -4,7 +4,7 @@ import hypothesis.extra.numpy as hnp
 import hypothesis.strategies as st
 import jax
 import numpy as np
-from hypothesis import assume, given
+from hypothesis import given, settings
 
 from dt3d.extrapolation.points import Point
 from dt3d.extrapolation.signed_distance import circumsphere, frame, signed_distance
@@ -29,18 +29,27 @@ def points(rows):
 def test_sign_of_the_height_is_the_orientation(rows):
     a, b, c, d, _ = points(rows)
     exact = integers(rows)
-    assume(np.any(np.cross(rows[1] - rows[0], rows[2] - rows[0])))
+    if not np.any(np.cross(rows[1] - rows[0], rows[2] - rows[0])):
+        return
     face = in_double(frame, a, b, c)
     finite = np.isfinite(in_double(signed_distance, face, d))
     # coplanar lattice sites are exactly coplanar; the least other height is far above the blur
     assert finite == (orient(*exact[:4]) > 0)
 
 
+def turned(rows):
+    """The sites with the first two changed so that the first four are positive; None if they are flat."""
+    sign = orient(*integers(rows)[:4])
+    return None if sign == 0 else rows if sign > 0 else rows[[1, 0, 2, 3, 4]]
+
+
 @given(sites)
+@settings(max_examples=80)  # in half of them the fifth site is on the other side
 def test_the_least_signed_distance_has_the_empty_sphere(rows):
+    rows = turned(rows)
+    if rows is None or orient(*integers(rows)[[0, 1, 2, 4]]) <= 0:
+        return
     exact = integers(rows)
-    assume(orient(*exact[:4]) > 0)
-    assume(orient(*exact[:3], exact[4]) > 0)
     a, b, c, d, e = points(rows)
     face = in_double(frame, a, b, c)
     inside = in_sphere(*exact[:4], exact[4])
@@ -54,8 +63,9 @@ def test_the_least_signed_distance_has_the_empty_sphere(rows):
 
 @given(sites)
 def test_the_circumsphere_passes_through_all_four(rows):
-    exact = integers(rows)
-    assume(orient(*exact[:4]) > 0)
+    rows = turned(rows)
+    if rows is None:
+        return
     a, b, c, d, _ = points(rows)
     face = in_double(frame, a, b, c)
     centre, squared = in_double(lambda f, p: circumsphere(f, signed_distance(f, p)), face, d)
