@@ -59,7 +59,8 @@ def check_points(points: Any) -> np.ndarray:
 def first_copies(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Indices of the distinct sites, and pairs (a later copy, the first one): int (m,) and int32 (k, 2).
 
-    The first of equal sites is the one of least index; both results are in ascending order.
+    The first of equal sites is the one of least index. The distinct sites come in the lexicographic order of
+    their coordinates, the pairs in that of the copies.
     """
     order = np.lexsort(sites.T[::-1])
     ordered = sites[order]
@@ -68,7 +69,7 @@ def first_copies(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     # lexsort is stable, so the first of a run of equal sites has the least index
     first = order[new][np.cumsum(new) - 1]
     copies = np.column_stack([order[~new], first[~new]]).astype(np.int32)
-    return np.sort(order[new]), copies[np.argsort(copies[:, 0])]
+    return order[new], copies[np.argsort(copies[:, 0])]
 
 
 def affine_dimension(sites: np.ndarray, tolerance: float) -> int:
@@ -104,8 +105,8 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
     return DegenerateInputError(msg, dimension)
 
 
-def exactly_scaled(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sites times a power of two in the order of their coordinates, and that order: float64 (n, 3), int (n,).
+def exactly_scaled(sites: np.ndarray) -> np.ndarray:
+    """Sites times a power of two, float64 (n, 3).
 
     Scaling is exact, and every coordinate is in the range of the exact predicates.
 
@@ -116,10 +117,8 @@ def exactly_scaled(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     from .predicates import in_range
 
-    order = np.lexsort(sites.T[::-1])
     greatest = np.abs(sites).max()
-    ordered = sites[order] + 0.0  # no -0.0
-    scaled = np.ldexp(ordered, -int(np.frexp(greatest)[1])) if greatest else ordered
+    scaled = np.ldexp(sites, -int(np.frexp(greatest)[1])) if greatest else sites
     if not in_range(scaled):
         least = np.abs(sites[sites != 0]).min()
         msg = (
@@ -127,4 +126,4 @@ def exactly_scaled(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             f"(2^137 is possible); set the small ones to zero, or use method='extrapolation'"
         )
         raise ValueError(msg)
-    return scaled, order
+    return scaled

@@ -134,8 +134,7 @@ class Delaunay:
         from .insertion import triangulate
 
         used, self.duplicates = first_copies(self.points)
-        sites, order = exactly_scaled(self.points[used])
-        used = used[order]
+        sites = exactly_scaled(self.points[used])
         stretches = itertools.count(1)
         outcome = triangulate(
             sites, seed, lambda sites_in, made: report(next(stretches), len(used) - sites_in, made)
@@ -280,11 +279,13 @@ def _check_seed(seed: Any) -> None:
 def _prepare(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Distinct sites, normalised and perturbed; their indices among the points; and the duplicates."""
     used, duplicates = first_copies(points)
+    used.sort()  # buckets have an order of their own; this one shows in the rows of the result
     distinct = normalise(points[used])
     # sixteen times what rounding the coordinates can do to a plane
     check_volume(distinct, 16 * float(np.finfo(dtype).eps))
     sites = perturb(distinct, dtype, seed)
     kept, merged = first_copies(sites)
+    kept.sort()
     if len(merged):
         msg = (
             f"{len(merged)} sites differ from others by less than {dtype} resolves in the extent of the set; "

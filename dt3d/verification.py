@@ -71,9 +71,8 @@ def verify(
         named = f"{simplices.min()} to {simplices.max()}"
         msg = f"simplices name sites {named}, but there are {len(points)} points"
         raise ValueError(msg)
-    scaled, order = exactly_scaled(points)
-    sites, rank = np.empty_like(scaled), np.empty(len(order), np.int64)
-    sites[order], rank[order] = scaled, np.arange(len(order))
+    sites, rank = exactly_scaled(points), np.empty(len(points), np.int64)
+    rank[np.lexsort(points.T[::-1])] = np.arange(len(points))
 
     volumes = orient3d(*(sites[simplices[:, k]] for k in range(4)))
     adjacent, crowded = _adjacent(simplices)

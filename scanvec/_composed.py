@@ -22,9 +22,7 @@ def composed(function: Callable) -> Callable:
     def run(*args: Any, **kwargs: Any) -> Any:
         for leaf in jax.tree.leaves((args, kwargs), is_leaf=is_vector):
             if is_vector(leaf):
-                if leaf.machine.ledger is None:
-                    break
-                with leaf.machine.ledger.operation(function.__name__):
+                with leaf.machine.operation(function.__name__):
                     return function(*args, **kwargs)
         return function(*args, **kwargs)
 

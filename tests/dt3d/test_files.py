@@ -176,13 +176,15 @@ def test_off(tmp_path):
 
 @pytest.mark.parametrize("extension", [".vtk", ".vtp"])
 def test_vtk_files_keep_double_precision(tmp_path, extension):
-    pyvista = pytest.importorskip("pyvista")
+    import pyvista
+
     pyvista.PolyData(POINTS).save(tmp_path / f"a{extension}")
     same(read_points(tmp_path / f"a{extension}"))
 
 
 def test_stl_gives_each_corner_once(tmp_path):
-    pyvista = pytest.importorskip("pyvista")
+    import pyvista
+
     pyvista.Cube().triangulate().save(tmp_path / "a.stl")
     corners = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
     assert sorted(map(tuple, read_points(tmp_path / "a.stl"))) == corners

@@ -5,12 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 from scipy.spatial import Delaunay
 
 from dt3d import plot
 from dt3d.plot import View, draw
-
-Image = pytest.importorskip("matplotlib.image")
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -60,12 +59,12 @@ def test_camera_is_a_rotation():
 
 def test_picture_has_the_size_asked_for_and_is_not_empty(cube, tmp_path):
     draw(cube, tmp_path / "a.png", View("a cube", cut=False), width=300, height=200)
-    pixels = Image.imread(tmp_path / "a.png")
+    pixels = imread(tmp_path / "a.png")
     assert pixels.shape[:2] == (200, 333)  # and a strip for the colour bar
     left = pixels[:, :300, :3].reshape(-1, 3)
     assert 0.1 < (left < 0.99).any(axis=1).mean() < 0.9
     draw(cube, tmp_path / "b.png", [View(), View(shrink=0.5)], width=300, height=200)
-    assert Image.imread(tmp_path / "b.png").shape[:2] == (200, 633)
+    assert imread(tmp_path / "b.png").shape[:2] == (200, 633)
 
 
 def test_pictures_of_a_growing_set_stay_in_place(cube):
@@ -103,7 +102,7 @@ def test_one_iteration_needs_no_scale(cube, tmp_path):
     draw(cube, tmp_path / "several.png", width=200, height=200)
     cube.iteration[:] = 1
     draw(cube, tmp_path / "one.png", width=200, height=200)
-    several, one = (Image.imread(tmp_path / name) for name in ("several.png", "one.png"))
+    several, one = (imread(tmp_path / name) for name in ("several.png", "one.png"))
     assert several.shape == one.shape
     bar = slice(201, None)  # columns to the right of the panel
     assert (several[:, bar, :3] < 1).any()
