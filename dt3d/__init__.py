@@ -6,7 +6,7 @@
 (4, dtype('int32'))
 """
 
-from ._errors import DegenerateInputError, InconsistencyError, InconsistencyWarning
+from ._errors import DegenerateInputError, InconsistencyError, InconsistencyWarning, QuadraticSearchWarning
 from ._stats import InsertionStatistics, Progress, Statistics
 from ._topology import OUTSIDE
 from .delaunay import Delaunay
@@ -21,6 +21,7 @@ __all__ = [
     "InconsistencyWarning",
     "InsertionStatistics",
     "Progress",
+    "QuadraticSearchWarning",
     "Statistics",
     "__version__",
 ]

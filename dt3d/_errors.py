@@ -33,3 +33,7 @@ class InconsistencyError(RuntimeError):
 
 class InconsistencyWarning(RuntimeWarning):
     """The result has inconsistencies: tetrahedra were left out, so it may have holes or overlaps."""
+
+
+class QuadraticSearchWarning(RuntimeWarning):
+    """Extrapolation compares each of thousands of faces with thousands of sites, as on one sphere."""

@@ -18,6 +18,8 @@ class Statistics:
         Faces expanded ("FE").
     sites_searched : int
         Sites examined in all face expansions ("search/FE" is this over `face_expansions`).
+    exact_decisions : int
+        Face expansions that the bounds of floating point left open; 0 with ``robustness="perturb"``.
     tetrahedra_per_iteration : tuple of int
         Tetrahedra found in iteration 1, 2, ... (Figure 3).
     inconsistencies : int
@@ -32,6 +34,7 @@ class Statistics:
     iterations: int
     face_expansions: int
     sites_searched: int
+    exact_decisions: int
     tetrahedra_per_iteration: tuple[int, ...]
     inconsistencies: int
     seconds: dict[str, float]

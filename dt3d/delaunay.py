@@ -15,7 +15,7 @@ import scanvec as sv
 
 from . import _topology
 from ._errors import InconsistencyError, InconsistencyWarning
-from ._input import check_points, check_volume, exactly_scaled, first_copies
+from ._input import affine_dimension, check_points, check_volume, exactly_scaled, first_copies
 from ._stats import InsertionStatistics, Progress, Statistics
 from .extrapolation import normalise, perturb
 from .extrapolation import triangulate as extrapolate
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from .verification import Verification
 
 METHODS = ("auto", "insertion", "extrapolation")
-ROBUSTNESS = {"insertion": "exact", "extrapolation": "perturb"}  # what each method offers
+ROBUSTNESS = ("exact", "perturb")
+CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
 
 
 class Delaunay:
@@ -39,17 +40,19 @@ class Delaunay:
     method : "auto", "insertion" or "extrapolation"
         "insertion" puts the sites in one by one on a CPU, exactly. "extrapolation" is the data-parallel
         method of Teng, Sullivan, Beichl and Puppo (1993) on a scanvec machine. "auto" inserts, unless
-        ``machine``, ``robustness="perturb"`` or ``dtype="float32"`` asks for what only extrapolation has.
-    robustness : "exact" or "perturb", optional
-        What the method has, if left out. "exact" (insertion): all decisions are right, cospherical sites are
-        decided by a symbolic perturbation, and the result does not depend on their order. "perturb"
-        (extrapolation): cospherical sites are decided by the paper's random linear perturbation of about
-        1e-9, with a check of the topology that counts inconsistencies.
+        ``machine`` or ``robustness="perturb"`` asks for what only extrapolation has. Both find the same
+        tetrahedra; but extrapolation compares every face with every site where thousands lie on one sphere.
+    robustness : "exact" or "perturb"
+        "exact": all decisions are right, cospherical sites are decided by a symbolic perturbation, and the
+        result does not depend on the method, the machine or the order of the sites. "perturb": the paper's
+        random linear perturbation of about 1e-9 decides cospherical sites, in floating point, and a check of the
+        topology counts inconsistencies; by extrapolation only.
     machine : scanvec.Machine, optional
         Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
         machines give the same tetrahedra.
     dtype : float64 or float32, optional
-        Working precision, float64 by default. Single precision is for experiments: it decides less.
+        Working precision, float64 by default. Single precision is for experiments with
+        ``robustness="perturb"``: it decides less.
     seed : int
         Of the perturbation, or of the order of insertion (which does not change the result).
     callback : callable, optional
@@ -106,7 +109,7 @@ class Delaunay:
         points: Any,
         *,
         method: str = "auto",
-        robustness: str | None = None,
+        robustness: str = "exact",
         machine: sv.Machine | None = None,
         dtype: Any = None,
         seed: int = 0,
@@ -120,6 +123,7 @@ class Delaunay:
             raise ValueError(msg)
         method = _check_method(method, robustness, machine, working)
         self.points = check_points(points)
+        self._exact = robustness == "exact"
 
         def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
@@ -128,7 +132,8 @@ class Delaunay:
         if method == "insertion":
             self._insert(seed, report, begun)
         else:
-            self._extrapolate(sv.Device() if machine is None else machine, working, seed, report, begun)
+            machine = sv.Device() if machine is None else machine
+            self._extrapolate(machine, robustness == "exact", working, seed, report, begun)
 
     def _insert(self, seed: int, report: Callable[[int, int, int], None], begun: float) -> None:
         from .insertion import triangulate
@@ -153,21 +158,28 @@ class Delaunay:
     def _extrapolate(
         self,
         machine: sv.Machine,
+        exact: bool,
         working: np.dtype,
         seed: int,
         report: Callable[[int, int, int], None],
         begun: float,
     ) -> None:
-        sites, used, self.duplicates = _prepare(self.points, working, seed)
-        outcome = extrapolate(machine, sites, report)
+        if exact:
+            used, self.duplicates = first_copies(self.points)
+            sites = exactly_scaled(self.points[used])
+            _check_volume(sites)
+        else:
+            sites, used, self.duplicates = _prepare(self.points, working, seed)
+        outcome = extrapolate(machine, sites, exact, report)
         self.simplices = used[outcome.simplices].astype(np.int32)
         self.neighbors = outcome.neighbors
         self.iteration = outcome.iteration
-        inconsistencies = outcome.inconsistencies + self._count_faults(used)
+        inconsistencies = 0 if exact else outcome.inconsistencies + self._count_faults(used)
         self.stats = Statistics(
             iterations=len(outcome.per_iteration),
             face_expansions=outcome.face_expansions,
             sites_searched=outcome.sites_searched,
+            exact_decisions=outcome.exact_decisions,
             tetrahedra_per_iteration=tuple(outcome.per_iteration),
             inconsistencies=inconsistencies,
             seconds=outcome.seconds | {"total": time.perf_counter() - begun},
@@ -203,8 +215,8 @@ class Delaunay:
     def verify(self) -> Verification:
         """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails.
 
-        A result of insertion is also checked to be the one triangulation that the symbolic perturbation
-        defines.
+        Unless ``robustness="perturb"`` was asked for, it must also be the one triangulation that the symbolic
+        perturbation defines.
         """
         from .verification import verify
 
@@ -213,7 +225,7 @@ class Delaunay:
             self.simplices,
             neighbors=self.neighbors,
             duplicates=self.duplicates,
-            perturbed=isinstance(self.stats, InsertionStatistics),
+            perturbed=self._exact,
         )
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
@@ -229,33 +241,37 @@ class Delaunay:
         return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
 
 
+def _check_volume(sites: np.ndarray) -> None:
+    """Raise DegenerateInputError unless distinct sites (n, 3) span a volume, however thin; exactly."""
+    if affine_dimension(normalise(sites), CLEARLY_THICK) < 3:
+        from .insertion.first import first_tetrahedron
+
+        first_tetrahedron(sites, 0)
+
+
 def _check_method(method: Any, robustness: Any, machine: Any, dtype: np.dtype) -> str:
     """The method that the options ask for."""
     if method not in METHODS:
         msg = f"method must be {', '.join(map(repr, METHODS[:-1]))} or {METHODS[-1]!r}, got {method!r}"
         raise ValueError(msg)
-    if robustness not in (None, *ROBUSTNESS.values()):
+    if robustness not in ROBUSTNESS:
         msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
         raise ValueError(msg)
     if machine is not None and not isinstance(machine, sv.Machine):
         msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
         raise ValueError(msg)
-    only_extrapolation = machine is not None or robustness == "perturb" or dtype == np.float32
-    if method == "auto":
-        method = "extrapolation" if only_extrapolation else "insertion"
+    if dtype == np.float32 and robustness == "exact":
+        msg = "dtype='float32' cannot hold the sites exactly; it goes with robustness='perturb'"
+        raise ValueError(msg)
+    only_extrapolation = machine is not None or robustness == "perturb"
     if method == "insertion" and only_extrapolation:
         msg = (
-            "method='insertion' is exact, in float64 and on this CPU; machine, robustness='perturb' and "
-            "dtype='float32' go with method='extrapolation'"
+            "method='insertion' is exact, and runs on this CPU; machine and robustness='perturb' go with "
+            "method='extrapolation'"
         )
         raise ValueError(msg)
-    if robustness not in (None, ROBUSTNESS[method]):
-        msg = (
-            f"method={method!r}, which a machine or dtype='float32' implies, does not have "
-            f"robustness={robustness!r} yet; leave both out for exact insertion, or use "
-            f"robustness={ROBUSTNESS[method]!r}"
-        )
-        raise ValueError(msg)
+    if method == "auto":
+        return "extrapolation" if only_extrapolation else "insertion"
     return method
 
 

@@ -16,8 +16,10 @@ from .points import Point
 class Grid(NamedTuple):
     """The uniform cells: cell (i, j, k) is [origin + (i, j, k) side, origin + (i+1, j+1, k+1) side]."""
 
-    origin: Point
+    origin: Point  # the lowest corner of the sites' box
+    high: Point  # its highest corner
     side: Any
+    slack: Any  # more than what rounding can have put a site, or a corner, to the wrong side
     nx: Any
     ny: Any
     nz: Any
@@ -40,11 +42,17 @@ def _cell(coordinate: Any, origin: Any, side: Any, n: Any) -> Any:
     return jnp.where(jnp.isnan(index), 0, index).astype(jnp.int32)
 
 
-def cell_of(p: Point, grid: Grid) -> Any:
-    """The number of the cell that holds a point, x running fastest."""
+def cell_coordinates(p: Point, grid: Grid) -> tuple[Any, Any, Any]:
+    """i, j, k of the cell that holds a point."""
     i = _cell(p.x, grid.origin.x, grid.side, grid.nx)
     j = _cell(p.y, grid.origin.y, grid.side, grid.ny)
     k = _cell(p.z, grid.origin.z, grid.side, grid.nz)
+    return i, j, k
+
+
+def cell_of(p: Point, grid: Grid) -> Any:
+    """The number of the cell that holds a point, x running fastest."""
+    i, j, k = cell_coordinates(p, grid)
     return i + grid.nx * (j + grid.ny * k)
 
 
@@ -61,19 +69,16 @@ def containment_box(low: Point, high: Point, grid: Grid) -> Box:
 
 
 def corners(i: Any, j: Any, k: Any, grid: Grid) -> tuple[Point, Point]:
-    """Lowest and highest corner of a cell.
+    """Lowest and highest corner of a cell, widened by the grid's slack, within the box of the sites.
 
-    Widened by a millionth of a side (a thousandth in single precision), more than what rounding can have
-    put a site, or a corner, to the wrong side.
+    No site lies beyond that box, so a face of the hull that lies in one of its sides has no cell above it.
     """
-    slack = grid.side * (1e-3 if jnp.asarray(grid.side).dtype == jnp.float32 else 1e-6)
-    low = Point(
-        grid.origin.x + i * grid.side - slack,
-        grid.origin.y + j * grid.side - slack,
-        grid.origin.z + k * grid.side - slack,
-    )
-    width = grid.side + 2 * slack
-    return low, Point(low.x + width, low.y + width, low.z + width)
+    low, high = [], []
+    for number, origin, end in zip((i, j, k), grid.origin, grid.high, strict=True):
+        start = origin + number * grid.side - grid.slack
+        low.append(jnp.maximum(start, origin))
+        high.append(jnp.minimum(start + (grid.side + 2 * grid.slack), end))
+    return Point(*low), Point(*high)
 
 
 def empty_box(like: Any) -> Box:

@@ -1,57 +1,140 @@
-"""Buckets: the sites, reordered so that each cell holds consecutive ones.
+"""Buckets: the sites, reordered so that sites near each other are neighbours in the list.
 
-Teng et al. 1993, section 4.2.
+Teng et al. 1993, section 4.2, has uniform cells of about eight sites. They serve sites that fill space evenly;
+for clusters, surfaces and the like the same order carries a tree of boxes (`tree`).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
+import jax.numpy as jnp
 import numpy as np
 
 import scanvec as sv
 
-from .boxes import Grid, cell_of
+from .boxes import Grid, cell_of, cell_coordinates
 from .points import Point
+from .tree import Tree, build
 
 SITES_PER_CELL = 8  # the paper's average (section 7)
-MOST_CELLS_PER_SITE = 4  # how far cells are refined for sites that leave most cells empty
+# Sites are even if the cells that have any hold at most so many times that on average.
+EVEN = 2.0
+BITS = 21  # of a coordinate in a Morton code, three of which fill a word
+MOST_OF_A_CODE = 64  # sites with equal codes, before another word of finer codes tells them apart
 
 
-class Buckets(NamedTuple):
-    """Sites in the order of their cells, and where each cell's sites are."""
+class Cells(NamedTuple):
+    """The uniform cells, and where each one's sites are in the list; x runs fastest."""
 
-    sites: Point  # vectors of length n
-    origin: sv.Vector  # int32 (n,): the index of each site in the order it came
+    grid: Grid
     starts: sv.Vector  # int32 (cells,)
     counts: sv.Vector  # int32 (cells,)
-    grid: Grid
+
+
+@dataclass(frozen=True)
+class Buckets:
+    """Sites along a Morton curve, and how to find those in a region.
+
+    Attributes
+    ----------
+    sites : Point
+        Three vectors of length n.
+    origin : Vector of int32 (n,)
+        The index of each site in the order it came.
+    cells : Cells or None
+        None where the sites are not even.
+    """
+
+    sites: Point
+    origin: sv.Vector
+    cells: Cells | None
+
+    @property
+    def machine(self) -> sv.Machine:
+        return self.origin.machine
+
+    @cached_property
+    def tree(self) -> Tree:
+        return build(self.sites)
 
 
 def bucket(sites: Point) -> Buckets:
-    """Sort sites into cubic cells with about eight sites in each cell that has any.
-
-    Where sites lie on a surface or in clusters, most cells of a grid with eight sites a cell on average are
-    empty and the others crowded; the cells are then made smaller, up to four a site.
-    """
+    """Order sites along a Morton curve: of the cells that hold them, where these are evenly filled."""
     machine, n = sites.x.machine, len(sites.x)
     low = [float(sv.reduce(v, sv.MIN)) for v in sites]
     high = [float(sv.reduce(v, sv.MAX)) for v in sites]
-    dtype = sites.x.dtype.type
-    wanted = n / SITES_PER_CELL
+    grid = _grid(low, high, n / SITES_PER_CELL, sites.x.dtype.type)
+    cell = machine.map(cell_of, sites, grid)
+    counts = machine.full(int(grid.nx) * int(grid.ny) * int(grid.nz), 0, np.int32)
+    counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, counts)
+    occupied = int(sv.reduce(counts > 0, sv.ADD))
+    if n > EVEN * SITES_PER_CELL * occupied:
+        return Buckets(*_along_curve(sites, low, high), None)
+    code = machine.map(_code_of_cell, sites, grid)
+    _, (ordered, origin, cell) = sv.sort(code, (sites, machine.iota(n), cell))
+    starts = machine.full(len(counts), n, np.int32)
+    starts = sv.send(machine.iota(n), cell, sv.MIN, starts)
+    return Buckets(ordered, origin, Cells(grid, starts, counts))
+
+
+def _along_curve(sites: Point, low: list[float], high: list[float]) -> tuple[Point, sv.Vector]:
+    """Sites and their origins in the order of fine Morton codes, of as many words as tell them apart."""
+    machine, n = sites.x.machine, len(sites.x)
+    extent = max(np.subtract(high, low))
+    rest = Point(*(machine.map(_fraction, v, start, extent) for v, start in zip(sites, low, strict=True)))
+    origin, words = machine.iota(n), []
     while True:
-        grid = _grid(low, high, wanted, dtype)
-        cells = int(grid.nx) * int(grid.ny) * int(grid.nz)
-        cell = machine.map(cell_of, sites, grid)
-        ones, none = machine.full(n, 1, np.int32), machine.full(cells, 0, np.int32)
-        counts = sv.send(ones, cell, sv.ADD, none)
-        occupied = int(sv.reduce(counts > 0, sv.ADD))
-        crowding = n / occupied / SITES_PER_CELL
-        if crowding < 1.5 or wanted * 2 > MOST_CELLS_PER_SITE * n:
-            break
-        wanted *= 2
-    _, (ordered, origin) = sv.sort(cell, (sites, machine.iota(n)))
-    return Buckets(ordered, origin, sv.scan(counts, sv.ADD), counts, grid)
+        word, rest = machine.map(_next_word, rest)
+        words.append(word)
+        _, order = sv.sort(tuple(words), origin)
+        ordered = sv.get(tuple(words), order)
+        if len(words) == 4 or _longest_run(ordered) <= MOST_OF_A_CODE:
+            return sv.get(sites, order), order
+
+
+def _longest_run(words: tuple[sv.Vector, ...]) -> int:
+    """The most consecutive equal rows."""
+    machine, n = words[0].machine, len(words[0])
+    index = machine.iota(n)
+    before = sv.get(words, index - 1, where=index > 0)
+    heads = machine.map(_differ, words, before) | (index == 0)
+    return int(sv.reduce(sv.Segments.from_flags(heads).lengths, sv.MAX))
+
+
+def _differ(words: Any, others: Any) -> Any:
+    return jnp.any(jnp.stack([a != b for a, b in zip(words, others, strict=True)]))
+
+
+def _fraction(x: Any, low: Any, extent: Any) -> Any:
+    return jnp.clip((x - low) / extent, 0, 1 - 2.0**-20)
+
+
+def _next_word(rest: Point) -> tuple[Any, Point]:
+    """The Morton code of the leading bits of three numbers in [0, 1), and what these leave."""
+    scaled = [v * 2.0**BITS for v in rest]
+    whole = [jnp.floor(v) for v in scaled]
+    left = Point(*(v - w for v, w in zip(scaled, whole, strict=True)))
+    return morton_code(*(w.astype(jnp.int64) for w in whole)), left
+
+
+def _code_of_cell(site: Point, grid: Grid) -> Any:
+    return morton_code(*(c.astype(jnp.int64) for c in cell_coordinates(site, grid)))
+
+
+def morton_code(i: Any, j: Any, k: Any) -> Any:
+    """Bits of three int64 below 2^21 in turn, those of i lowest."""
+    code = jnp.zeros_like(i)
+    for shift, x in enumerate((i, j, k)):
+        for step, mask in (
+            (32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F),
+            (4, 0x10C30C30C30C30C3), (2, 0x1249249249249249),
+        ):  # fmt: skip
+            x = (x | x << step) & mask
+        code |= x << shift
+    return code
 
 
 def _grid(low: list[float], high: list[float], wanted: float, dtype: Any) -> Grid:
@@ -66,4 +149,8 @@ def _grid(low: list[float], high: list[float], wanted: float, dtype: Any) -> Gri
         else:
             large = side
     counts = [np.int32(max(1, np.ceil(e / large))) for e in extents]
-    return Grid(Point(*(dtype(v) for v in low)), dtype(large), *counts)
+    relative = 1e-3 if dtype is np.float32 else 1e-6
+    greatest = float(np.abs([low, high]).max())
+    slack = relative * large + 4 * float(np.finfo(dtype).eps) * greatest
+    origin, end = (Point(*(dtype(v) for v in corner)) for corner in (low, high))
+    return Grid(origin, end, dtype(large), dtype(slack), *counts)

@@ -95,6 +95,14 @@ def distinct(tetrahedra: Tetrahedron) -> Tetrahedron:
     return sv.pack(tetrahedra, holders == machine.iota(len(holders)))
 
 
+def distinct_facets(facets: Face) -> Face:
+    """One copy of each facet, whatever its side and the order of its vertices."""
+    machine = facets.a.machine
+    keys = machine.map(face_key, facets)[:3]
+    _, holders = dictionary.insert(dictionary.empty(machine, 3), keys)
+    return sv.pack(facets, holders == machine.iota(len(holders)))
+
+
 def bury(dead: DeadFaces, tetrahedra: Tetrahedron, first: int) -> tuple[DeadFaces, Tetrahedron, int]:
     """Make the faces of new tetrahedra dead; those that contradict others are left out, and counted.
 

@@ -1,7 +1,8 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is the region in
-which a better site can lie: the part of the best circumsphere in the positive half-space, a spherical cap.
+Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two forms:
+`PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are compared as
+they come; and `FILTERED`, which knows each only between bounds.
 """
 
 from __future__ import annotations
@@ -12,12 +13,17 @@ import jax.numpy as jnp
 
 import scanvec as sv
 
-from .boxes import Box, Grid, containment_box
+from . import filtered_distance, signed_distance
+from .boxes import Box, Grid
 from .buckets import Buckets
 from .gift_wrapping import squared_distance_to_box
-from .points import Point, add, dot, epsilon, sub
+from .points import Point, add, dot, epsilon, norm, sub
+from .regions import bounding_box, box_towards, cap_box
 from .search import Answer, Question, search
-from .signed_distance import Frame, circumsphere, frame, signed_distance
+
+
+# Bounds that a tree search tries before it does without.
+TRIALS = 4
 
 
 class Face(NamedTuple):
@@ -29,106 +35,103 @@ class Face(NamedTuple):
 
 
 class OpenFace(NamedTuple):
-    """An open face as a query: its frame and the box of its vertices."""
+    """An open face as a query: its frame, the box of its vertices, and these."""
 
-    frame: Frame
+    frame: Any
     low: Point
     high: Point
+    face: Face
 
 
-def open_face(a: Point, b: Point, c: Point) -> OpenFace:
-    low = Point(*(jnp.minimum(jnp.minimum(u, v), w) for u, v, w in zip(a, b, c, strict=True)))
-    high = Point(*(jnp.maximum(jnp.maximum(u, v), w) for u, v, w in zip(a, b, c, strict=True)))
-    return OpenFace(frame(a, b, c), low, high)
-
-
-def _score(query: OpenFace, site: Point, index: Any) -> Any:
-    return signed_distance(query.frame, site)
+def _homes(query: OpenFace) -> tuple[Any, Any, Any]:
+    return query.face.a, query.face.b, query.face.c
 
 
 def _first_box(query: OpenFace, grid: Grid) -> Box:
-    """The containment box of a, b, c and their circumcentre, which may be a cell beyond them at most.
-
-    Faces of slivers at the hull have circumcentres far away; opening all cells on the way would be in vain.
-    """
-    o = add(query.frame.origin, query.frame.centre)
-    reach = grid.side
-    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - reach)) for u, v in zip(query.low, o, strict=True)))
-    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + reach)) for u, v in zip(query.high, o, strict=True)))
-    return containment_box(low, high, grid)
+    return box_towards(query.low, query.high, add(query.frame.origin, query.frame.centre), grid)
 
 
-def _region(query: OpenFace, score: Any, grid: Grid) -> Box:
-    """The box of the cap; of the positive half-space within the grid while there is no candidate."""
-    far_corner = Point(
-        grid.origin.x + grid.nx * grid.side,
-        grid.origin.y + grid.ny * grid.side,
-        grid.origin.z + grid.nz * grid.side,
-    )
-    low, high = _half_space_bounds(query.frame, grid.origin, far_corner)
-    found = jnp.isfinite(score)
-    cap_low, cap_high = _cap_bounds(query.frame, jnp.where(found, score, 0))
-    slack = grid.side * 1e-3
-    low = Point(*(jnp.where(found, jnp.maximum(u, v), u) - slack for u, v in zip(low, cap_low, strict=True)))
-    high = Point(
-        *(jnp.where(found, jnp.minimum(u, v), u) + slack for u, v in zip(high, cap_high, strict=True))
-    )
-    return containment_box(low, high, grid)
+def _trial(query: OpenFace, k: Any, unit: Any) -> Any:
+    """Signed distances of half the radius of the face's circumcircle, then of 2, 8, 32 of them."""
+    distance = norm(query.frame.centre) * jnp.left_shift(1, 2 * k) / 2
+    return jnp.where(k < TRIALS, distance / unit, jnp.inf)
 
 
-def _half_space_bounds(face: Frame, low: Point, high: Point) -> tuple[Point, Point]:
-    """Bounds of the part of the box from low to high that lies on the positive side of a face."""
-    n = face.normal
-    lo, hi = sub(low, face.origin), sub(high, face.origin)
-    most = [jnp.maximum(m * u, m * v) for m, u, v in zip(n, lo, hi, strict=True)]
-    total = most[0] + most[1] + most[2]
-    new_low, new_high = [], []
-    for axis in range(3):
-        # n . x >= 0 with the other two coordinates at their most favourable
-        m, rest = n[axis], total - most[axis]
-        level = -rest / jnp.where(m == 0, 1, m) + face.origin[axis]
-        new_low.append(jnp.where(m > 0, jnp.maximum(low[axis], level), low[axis]))
-        new_high.append(jnp.where(m < 0, jnp.minimum(high[axis], level), high[axis]))
-    return Point(*new_low), Point(*new_high)
+# for perturbed sites
 
 
-def _cap_bounds(face: Frame, distance: Any) -> tuple[Point, Point]:
-    """Bounds of the sphere of the given signed distance, as far as it is on the positive side of the face.
-
-    Along an axis u the cap ends at the sphere's own extreme point where that is on the positive side,
-    otherwise at the extreme point of the face's circumcircle.
-    """
-    centre, squared = circumsphere(face, distance)
-    radius = jnp.sqrt(squared) * (1 + 16 * epsilon(face.origin))
-    circle = add(face.origin, face.centre)
-    circle_radius = jnp.sqrt(dot(face.centre, face.centre)) * (1 + 16 * epsilon(face.origin))
-    low, high = [], []
-    for axis in range(3):
-        m = face.normal[axis]
-        rim = circle_radius * jnp.sqrt(jnp.maximum(1 - m * m, 0))
-        high.append(jnp.where(distance + radius * m >= 0, centre[axis] + radius, circle[axis] + rim))
-        low.append(jnp.where(distance - radius * m >= 0, centre[axis] - radius, circle[axis] - rim))
-    return Point(*low), Point(*high)
+def open_perturbed_face(face: Face, a: Point, b: Point, c: Point) -> OpenFace:
+    return OpenFace(signed_distance.frame(a, b, c), *bounding_box(a, b, c), face)
 
 
-def _admits(query: OpenFace, score: Any, low: Point, high: Point) -> Any:
-    """Whether a cell meets the positive half-space and, once there is a candidate, its circumsphere."""
+def _perturbed_score(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
+    distance = signed_distance.signed_distance(query.frame, site)
+    return distance, distance
+
+
+def _perturbed_region(query: OpenFace, distance: Any, grid: Grid) -> Box:
+    f = query.frame
+    zero = jnp.zeros_like(f.blur)
+    return cap_box(f.origin, f.normal, Point(zero, zero, zero), f.centre, distance, zero, grid)
+
+
+def _perturbed_admits(query: OpenFace, distance: Any, low: Point, high: Point) -> Any:
+    """Whether a box meets the positive half-space and, once there is a candidate, its circumsphere."""
     face = query.frame
     lo, hi = sub(low, face.origin), sub(high, face.origin)
     height = sum(jnp.maximum(m * u, m * v) for m, u, v in zip(face.normal, lo, hi, strict=True))
-    found = jnp.isfinite(score)
-    centre, squared = circumsphere(face, jnp.where(found, score, 0))
+    found = jnp.isfinite(distance)
+    centre, squared = signed_distance.circumsphere(face, jnp.where(found, distance, 0))
     # the squares lose what the coordinates have beyond an ulp of the radius
-    slack = 64 * epsilon(face.origin) * (squared + dot(centre, centre))
+    slack = 64 * epsilon(low.x) * (squared + dot(centre, centre))
     meets = squared_distance_to_box(centre, low, high) <= squared + slack
     return (height >= 0) & (meets | ~found)
 
 
-EXPANSION = Question(score=_score, first_box=_first_box, region=_region, admits=_admits)
+def _perturbed_trial(query: OpenFace, k: Any) -> Any:
+    return _trial(query, k, 1)
 
 
-def expand(buckets: Buckets, faces: Face) -> Answer:
+PERTURBED = Question(
+    _perturbed_score, _homes, _first_box, _perturbed_region, _perturbed_admits, _perturbed_trial
+)
+
+
+# for sites as they are
+
+
+def open_exact_face(
+    face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any
+) -> OpenFace:
+    return OpenFace(filtered_distance.frame(a, b, c, filterable, lattice), *bounding_box(a, b, c), face)
+
+
+def _bounds(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
+    own = (index == query.face.a) | (index == query.face.b) | (index == query.face.c)
+    low, high = filtered_distance.distance_bounds(query.frame, site)
+    return jnp.where(own, jnp.inf, low), jnp.where(own, jnp.inf, high)
+
+
+def _region(query: OpenFace, bound: Any, grid: Grid) -> Box:
+    f = query.frame
+    # what the errors of centre and normal can move, and the roundings of the cap itself
+    reach = norm(f.centre) + jnp.abs(bound) * norm(f.normal)
+    slack = 4 * (f.blur + jnp.abs(bound) * norm(f.doubt)) + 64 * epsilon(f.blur) * reach
+    return cap_box(f.origin, f.normal, f.doubt, f.centre, bound / 2, slack, grid)
+
+
+def _may_hold(query: OpenFace, bound: Any, low: Point, high: Point) -> Any:
+    return filtered_distance.may_hold(query.frame, bound, low, high)
+
+
+def _exact_trial(query: OpenFace, k: Any) -> Any:
+    return _trial(query, k, norm(query.frame.normal) / 2)
+
+
+FILTERED = Question(_bounds, _homes, _first_box, _region, _may_hold, _exact_trial)
+
+
+def expand_perturbed(buckets: Buckets, faces: Face) -> Answer:
     """The fourth vertex of each face, or `NO_SITE` where no site is on its positive side."""
-    machine = buckets.origin.machine
     a, b, c = (sv.get(buckets.sites, v) for v in faces)
-    return search(buckets, machine.map(open_face, a, b, c), EXPANSION)
+    return search(buckets, buckets.machine.map(open_perturbed_face, faces, a, b, c), PERTURBED)

@@ -50,9 +50,10 @@ class Start(NamedTuple):
     site: Any
 
 
-def _nearest_score(query: Start, site: Point, index: Any) -> Any:
+def _nearest_score(query: Start, site: Point, index: Any) -> tuple[Any, Any]:
     d = sub(site, query.a)
-    return jnp.where(index == query.site, jnp.inf, dot(d, d))
+    score = jnp.where(index == query.site, jnp.inf, dot(d, d))
+    return score, score
 
 
 def _nearest_ball(query: Start, score: Any) -> Ball:
@@ -61,9 +62,11 @@ def _nearest_ball(query: Start, score: Any) -> Ball:
 
 NEAREST = Question(
     score=_nearest_score,
+    homes=lambda query: (query.site,),
     first_box=lambda query, grid: containment_box(query.a, query.a, grid),
     region=lambda query, score, grid: ball_box(_nearest_ball(query, score), grid),
     admits=lambda query, score, low, high: ball_meets(_nearest_ball(query, score), low, high),
+    trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
 )
 
 
@@ -77,14 +80,15 @@ class Edge(NamedTuple):
     site_b: Any
 
 
-def _circle_score(query: Edge, site: Point, index: Any) -> Any:
+def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
     """Squared circumradius of (a, b, site): |ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2)."""
     ab, ac, bc = sub(query.b, query.a), sub(site, query.a), sub(site, query.b)
     normal = cross(ab, ac)
     area = dot(normal, normal)
     flat = (area <= 0) | (index == query.site_a) | (index == query.site_b)
     product = dot(ab, ab) * dot(ac, ac) * dot(bc, bc)
-    return jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+    score = jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+    return score, score
 
 
 def _circle_ball(query: Edge, score: Any) -> Ball:
@@ -103,16 +107,18 @@ def _ends_box(query: Edge, grid: Grid) -> Box:
 
 SMALLEST_CIRCLE = Question(
     score=_circle_score,
+    homes=lambda query: (query.site_a, query.site_b),
     first_box=_ends_box,
     region=lambda query, score, grid: ball_box(_circle_ball(query, score), grid),
     admits=lambda query, score, low, high: ball_meets(_circle_ball(query, score), low, high),
+    trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
 )
 
 
 def first_facets(buckets: Buckets) -> tuple[sv.Vector, sv.Vector, sv.Vector]:
     """A Delaunay facet (a, b, c) for every site a: three int32 vectors of length n."""
-    sites, machine = buckets.sites, buckets.origin.machine
+    sites, machine = buckets.sites, buckets.machine
     a = machine.iota(len(buckets.origin))
-    b = search(buckets, Start(sites, a), NEAREST).site
-    c = search(buckets, Edge(sites, sv.get(sites, b), a, b), SMALLEST_CIRCLE).site
+    b = search(buckets, Start(sites, a), NEAREST).best.site
+    c = search(buckets, Edge(sites, sv.get(sites, b), a, b), SMALLEST_CIRCLE).best.site
     return a, b, c

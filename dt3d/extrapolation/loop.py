@@ -24,16 +24,18 @@ from .dead_faces import (
     bury,
     bury_boundary,
     distinct,
-    face_key,
+    distinct_facets,
     neighbors,
     no_dead_faces,
     open_faces,
-    opposite,
 )
-from .expansion import Face, expand
+from .decisions import Counts, expand_exactly
+from .exact_sites import ExactSites
+from .expansion import Face, expand_perturbed
 from .gift_wrapping import first_facets
 from .points import Point
 from .search import NO_SITE
+from .start import both_sides, seeds
 
 # A set is given up when so large a share of the tetrahedra found, and more than so many, contradict others
 # ("too many" in the paper's Table 3).
@@ -51,6 +53,7 @@ class Outcome:
     per_iteration: list[int] = field(default_factory=list)
     face_expansions: int = 0
     sites_searched: int = 0
+    exact_decisions: int = 0
     inconsistencies: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
 
@@ -71,11 +74,20 @@ class _Clock:
 
 
 def triangulate(
-    machine: sv.Machine, sites: np.ndarray, report: Callable[[int, int, int], None] | None = None
+    machine: sv.Machine,
+    sites: np.ndarray,
+    exact: bool,
+    report: Callable[[int, int, int], None] | None = None,
 ) -> Outcome:
-    """Triangulate distinct sites, float32 or float64 (n, 3), in the unit cube and perturbed.
+    """Triangulate distinct sites (n, 3).
 
     ``report(iteration, open_faces, tetrahedra)`` is called after every iteration.
+
+    Parameters
+    ----------
+    sites
+        If ``exact``, float64 in lexicographic order, which is that of the symbolic perturbation. Otherwise
+        float32 or float64 in the unit cube, and perturbed so that no five are cospherical.
 
     Raises
     ------
@@ -86,20 +98,23 @@ def triangulate(
     with clock.phase("buckets"):
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))
     with clock.phase("first facets"):
-        open_list = _both_sides(_distinct_facets(buckets))
+        facets = _wrapped_facets(buckets)
+    expander = _Exact(ExactSites(buckets, sites)) if exact else _Perturbed(buckets)
 
     dead = no_dead_faces(machine)
     found: list[Tetrahedron] = []
     out = Outcome(np.empty((0, 4), np.int32), np.empty((0, 4), np.int32), np.empty(0, np.int32))
     total = 0
-    while len(open_list.a):
+    open_list: Face | None = None
+    while open_list is None or len(open_list.a):
         with clock.phase("face expansion"):
-            answer = expand(buckets, open_list)
-            out.face_expansions += len(open_list.a)
-            out.sites_searched += answer.sites_searched
+            if open_list is None:
+                open_list, site = expander.begin(facets, out)
+            else:
+                site = expander.expand(open_list, out)
         with clock.phase("dead faces"):
-            expanded = answer.site != NO_SITE
-            new = distinct(sv.pack(Tetrahedron(*open_list, answer.site), expanded))
+            expanded = site != NO_SITE
+            new = distinct(sv.pack(Tetrahedron(*open_list, site), expanded))
             dead, new, lost = bury(dead, new, total)
             dead, lost_boundary = bury_boundary(dead, sv.pack(open_list, ~expanded))
             open_list = open_faces(dead, new)
@@ -107,7 +122,7 @@ def triangulate(
         out.per_iteration.append(len(new.a))
         total += len(new.a)
         out.inconsistencies += lost + lost_boundary
-        _give_up_if_hopeless(out, total, len(sites))
+        _give_up_if_hopeless(out, total, len(sites), exact)
         if report is not None:
             report(len(out.per_iteration), len(open_list.a), total)
 
@@ -117,24 +132,68 @@ def triangulate(
     return out
 
 
-def _distinct_facets(buckets: Buckets) -> Face:
-    """First facets, each once: vertices in ascending order."""
-    machine = buckets.origin.machine
+class _Perturbed:
+    """Expands faces of perturbed sites."""
+
+    def __init__(self, buckets: Buckets) -> None:
+        self._buckets = buckets
+
+    def begin(self, facets: Face, out: Outcome) -> tuple[Face, sv.Vector]:
+        """The first open faces and their fourth vertices."""
+        faces = both_sides(facets)
+        return faces, self.expand(faces, out)
+
+    def expand(self, faces: Face, out: Outcome) -> sv.Vector:
+        """The fourth vertex of each face, or `NO_SITE`."""
+        answer = expand_perturbed(self._buckets, faces)
+        out.face_expansions += len(faces.a)
+        out.sites_searched += answer.sites_searched
+        return answer.best.site
+
+
+class _Exact:
+    """Expands faces of sites as they are."""
+
+    def __init__(self, sites: ExactSites) -> None:
+        self._sites = sites
+
+    def begin(self, facets: Face, out: Outcome) -> tuple[Face, sv.Vector]:
+        """The first open faces and their fourth vertices."""
+        start, counts = seeds(self._sites, facets)
+        self._count(counts, out)
+        return start.faces, start.site
+
+    def expand(self, faces: Face, out: Outcome) -> sv.Vector:
+        """The fourth vertex of each face, or `NO_SITE`."""
+        expansion, counts = expand_exactly(self._sites, faces)
+        self._count(counts, out)
+        return expansion.site
+
+    @staticmethod
+    def _count(counts: Counts, out: Outcome) -> None:
+        out.face_expansions += counts.face_expansions
+        out.sites_searched += counts.sites_searched
+        out.exact_decisions += counts.exact_decisions
+
+
+def _wrapped_facets(buckets: Buckets) -> Face:
+    """First facets, each once."""
     facets = Face(*first_facets(buckets))
     # a site whose nearest one is so near that all triangles with both look flat waits for others' faces
     facets = sv.pack(facets, facets.c != NO_SITE)
     if not len(facets.a):
         msg = "no three sites form a triangle that this precision can tell from a flat one"
         raise InconsistencyError(msg, 0)
-    low, mid, high, _ = machine.map(face_key, facets)
-    return Face(*sv.unique((low, mid, high)))
+    return distinct_facets(facets)
 
 
-def _both_sides(facets: Face) -> Face:
-    return sv.append(facets, facets.a.machine.map(opposite, facets))
-
-
-def _give_up_if_hopeless(out: Outcome, total: int, n: int) -> None:
+def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
+    if exact and out.inconsistencies:
+        msg = (
+            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: this is "
+            f"an error of dt3d, please report it with the points"
+        )
+        raise InconsistencyError(msg, out.inconsistencies)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too
     if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total) or 2 * total > n * n:
         msg = (

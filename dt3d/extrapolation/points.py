@@ -39,6 +39,6 @@ def norm(p: Point) -> Any:
     return jnp.sqrt(dot(p, p))
 
 
-def epsilon(p: Point) -> Any:
-    """The unit roundoff (half an ulp of 1) of the coordinates' dtype."""
-    return jnp.finfo(jnp.asarray(p.x).dtype).eps / 2
+def epsilon(x: Any) -> Any:
+    """The unit roundoff (half an ulp of 1) of a number's dtype."""
+    return jnp.finfo(jnp.asarray(x).dtype).eps / 2

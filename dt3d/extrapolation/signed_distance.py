@@ -50,7 +50,7 @@ def frame(a: Point, b: Point, c: Point) -> Frame:
     # Coordinates carry rounding errors of about the unit roundoff of 1 (the unit cube). In the normal they
     # are magnified by the ratio of the face's length to its height.
     reach = jnp.maximum(r11, norm(v))
-    blur = 8 * epsilon(a) * (1 + reach / r22)
+    blur = 8 * epsilon(a.x) * (1 + reach / r22)
     return Frame(a, q3, centre, blur, reach)
 
 

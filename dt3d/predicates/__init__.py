@@ -1,83 +1,41 @@
-"""Exact geometric predicates: signs that are right for all inputs in a range of exponents.
+"""Exact geometric predicates: signs that are right for all inputs.
 
-`orient3d` and `in_sphere` here take arrays and check them; the compiled forms that algorithms use are in
-`filtered`, the exact stage in `exact`, the arithmetic in `expansions`.
+`orient3d` and `in_sphere` take arrays and check them. What algorithms are written with has its own modules:
+
+* compiled by numba, by rows of an array: `filtered`, its exact stage `exact` with the arithmetic of
+  `expansions`, and `perturbed`, where ties are decided,
+* in JAX, for one set of points inside mapped code: `elementwise`, with the arithmetic of `integers`.
+
+What is imported from here loads when it is first used, so that the JAX forms do not load numba, nor importing
+dt3d either.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-import numba
-import numpy as np
-
-from . import filtered
-from .expansions import EXPONENTS, work_array
+if TYPE_CHECKING:
+    from .arrays import in_range, in_sphere, orient3d
+    from .expansions import EXPONENTS, work_array
 
 __all__ = ["EXPONENTS", "in_range", "in_sphere", "orient3d", "work_array"]
 
-
-def in_range(coordinates: Any) -> bool:
-    """Whether all coordinates are zero or have all their bits within `EXPONENTS`."""
-    x = np.abs(np.asarray(coordinates, np.float64))
-    low, high = EXPONENTS
-    return bool(((x == 0) | ((x >= 2.0 ** (low + 53)) & (x < 2.0**high))).all())
-
-
-def orient3d(a: Any, b: Any, c: Any, d: Any) -> Any:
-    """Signs of det[b-a, c-a, d-a]: positive for the origin and the three unit vectors in order.
-
-    Parameters
-    ----------
-    a, b, c, d : array_like of float64 (..., 3)
-        Points; the leading shapes broadcast.
-
-    Returns
-    -------
-    int8 (...)
-        -1, 0 or 1; 0 exactly where the four are coplanar.
-
-    Raises
-    ------
-    ValueError
-        If a coordinate is not in the range of `EXPONENTS`; scale by a power of two.
-    """
-    return _signs(_orient3d_all, a, b, c, d)
+_HOME = {
+    "EXPONENTS": "expansions",
+    "in_range": "arrays",
+    "in_sphere": "arrays",
+    "orient3d": "arrays",
+    "work_array": "expansions",
+}
 
 
-def in_sphere(a: Any, b: Any, c: Any, d: Any, e: Any) -> Any:
-    """Signs of the in-sphere determinant: for positive abcd 1 where e is inside their sphere, 0 where on it.
-
-    Parameters, result and errors as for `orient3d`.
-    """
-    return _signs(_in_sphere_all, a, b, c, d, e)
-
-
-def _signs(kernel: Any, *points: Any) -> Any:
-    arrays = np.broadcast_arrays(*(np.asarray(p, np.float64) for p in points))
-    if arrays[0].ndim == 0 or arrays[0].shape[-1] != 3:
-        msg = f"points must have shape (..., 3), got {arrays[0].shape}"
-        raise ValueError(msg)
-    if not all(map(in_range, arrays)):
-        msg = (
-            f"coordinates must be zero or between 2^{EXPONENTS[0] + 53} and 2^{EXPONENTS[1]} in magnitude "
-            f"for exact signs; scale by a power of two"
-        )
-        raise ValueError(msg)
-    shape = arrays[0].shape[:-1]
-    cases = np.stack([x.reshape(-1, 3) for x in arrays], axis=1)
-    out = np.empty(len(cases), np.int8)
-    kernel(cases, work_array(), out)
-    return out.reshape(shape)[()]
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        msg = f"module {__name__!r} has no attribute {name!r}"
+        raise AttributeError(msg)
+    return getattr(import_module(f".{_HOME[name]}", __name__), name)
 
 
-@numba.njit(cache=True)
-def _orient3d_all(cases, w, out):
-    for i in range(len(out)):
-        out[i] = filtered.orient3d(cases[i], 0, 1, 2, 3, w)
-
-
-@numba.njit(cache=True)
-def _in_sphere_all(cases, w, out):
-    for i in range(len(out)):
-        out[i] = filtered.in_sphere(cases[i], 0, 1, 2, 3, 4, w)
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -71,8 +71,7 @@ def test_sets_without_volume(points, dimension, words, method):
         ({"robustness": "none"}, "robustness must be 'exact' or 'perturb', got 'none'"),
         ({"method": "insertion", "robustness": "perturb"}, "go with method='extrapolation'"),
         ({"method": "insertion", "machine": sv.Device()}, "go with method='extrapolation'"),
-        ({"method": "insertion", "dtype": "float32"}, "go with method='extrapolation'"),
-        ({"machine": sv.Device(), "robustness": "exact"}, "does not have robustness='exact' yet"),
+        ({"dtype": "float32"}, "cannot hold the sites exactly; it goes with robustness='perturb'"),
         ({"dtype": "float16"}, "dtype must be float64 or float32, got 'float16'"),
         ({"dtype": "no"}, "dtype must be float64 or float32, got 'no'"),
         ({"machine": "gpu"}, "machine must be a scanvec machine"),
@@ -95,7 +94,7 @@ def test_duplicates_are_used_once_and_listed():
 def test_sites_that_single_precision_cannot_tell_apart_are_listed():
     points = np.concatenate([POINTS, POINTS[:2] + 1e-12])
     with pytest.warns(dt3d.InconsistencyWarning, match="2 sites differ from others by less than float32"):
-        tri = dt3d.Delaunay(points, dtype="float32")
+        tri = dt3d.Delaunay(points, robustness="perturb", dtype="float32")
     assert tri.duplicates.tolist() == [[20, 0], [21, 1]]
 
 
@@ -126,11 +125,12 @@ def test_magnitudes_that_exact_insertion_cannot_hold_together():
         dt3d.Delaunay(points)
 
 
-def test_a_plane_up_to_rounding_has_volume_for_exact_insertion():
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+def test_a_plane_up_to_rounding_has_volume(method):
     points = np.c_[POINTS[:, :2], POINTS[:, :2].sum(axis=1) / 3]
-    validate(dt3d.Delaunay(points, method="insertion"))
+    validate(dt3d.Delaunay(points, method=method))
     with pytest.raises(dt3d.DegenerateInputError, match="lie on a plane"):
-        dt3d.Delaunay(points, method="extrapolation")
+        dt3d.Delaunay(points, robustness="perturb")
 
 
 @pytest.mark.parametrize("method", ["insertion", "extrapolation"])

@@ -5,9 +5,9 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import loop
+from dt3d.extrapolation import decisions, loop
 
-from .exact import check_neighbors
+from .exact import check_neighbors, validate
 
 
 def on_sphere(n):
@@ -41,19 +41,19 @@ def test_what_a_callback_raises_ends_the_run_within_an_iteration(error):
 
 def test_a_set_that_cannot_be_finished_ends_with_an_error_that_counts():
     with pytest.raises(dt3d.InconsistencyError, match=r"\d+ inconsistencies among \d+ tetrahedra") as caught:
-        dt3d.Delaunay(on_sphere(2000), dtype="float32")
+        dt3d.Delaunay(on_sphere(2000), robustness="perturb", dtype="float32")
     assert caught.value.inconsistencies > loop.GIVE_UP_COUNT
     assert "float64" in str(caught.value)
 
 
 def test_a_few_inconsistencies_are_counted_and_warned_of():
     with pytest.warns(dt3d.InconsistencyWarning, match=r"has \d+ inconsistencies"):
-        tri = dt3d.Delaunay(on_sphere(300), dtype="float32")
+        tri = dt3d.Delaunay(on_sphere(300), robustness="perturb", dtype="float32")
     assert tri.stats.inconsistencies > 0
 
 
 def test_the_same_spheres_are_finished_in_double_precision():
-    tri = dt3d.Delaunay(on_sphere(300), method="extrapolation")
+    tri = dt3d.Delaunay(on_sphere(300), robustness="perturb")
     assert tri.stats.inconsistencies == 0
     check_neighbors(tri)
     assert len(tri.convex_hull) == 2 * 300 - 4  # Euler: all sites are on the hull
@@ -70,17 +70,17 @@ def test_a_run_in_circles_ends(monkeypatch):
         return again_faces[0]
 
     again_faces = []
-    real = loop._both_sides
+    real = loop.both_sides
 
     def remember(facets):
         again_faces.append(real(facets))
         return again_faces[0]
 
-    monkeypatch.setattr(loop, "_both_sides", remember)
+    monkeypatch.setattr(loop, "both_sides", remember)
     monkeypatch.setattr(loop, "open_faces", all_outward)
     monkeypatch.setattr(loop, "bury", lambda dead, new, first: (dead, new, 0))
     with pytest.raises(dt3d.InconsistencyError):
-        dt3d.Delaunay(np.random.default_rng(0).random((30, 3)), machine=sv.Device())
+        dt3d.Delaunay(np.random.default_rng(0).random((30, 3)), robustness="perturb", machine=sv.Device())
 
 
 def test_insertion_reports_every_stretch_and_stops(monkeypatch):
@@ -102,4 +102,11 @@ def test_sites_too_near_for_a_first_facet_end_with_an_error_that_says_so():
     points = np.random.default_rng(0).random((60, 3))
     points[:20] *= 1e-170  # squared areas of triangles with two of these underflow
     with pytest.raises(dt3d.InconsistencyError, match=r"sites are in no tetrahedron|inconsistencies|flat"):
-        dt3d.Delaunay(points, method="extrapolation")
+        dt3d.Delaunay(points, robustness="perturb")
+    validate(dt3d.Delaunay(points, method="extrapolation"))
+
+
+def test_thousands_on_one_sphere_are_warned_of(monkeypatch):
+    monkeypatch.setattr(decisions, "CROWD", 8)
+    with pytest.warns(dt3d.QuadraticSearchWarning, match="nearly cospherical .* method='insertion'"):
+        dt3d.Delaunay(on_sphere(300), method="extrapolation")

@@ -71,7 +71,7 @@ def test_extend_grows_towards_the_target_and_no_further(dead, target, steps):
 
 
 def test_cells_far_away_are_clipped_to_the_grid():
-    grid = Grid(Point(0.0, 0.0, 0.0), 0.5, 2, 3, 4)
+    grid = Grid(Point(0.0, 0.0, 0.0), Point(1.0, 1.5, 2.0), 0.5, 1e-6, 2, 3, 4)
     for x, want in ((-1e30, 0), (0.0, 0), (0.75, 1), (1e30, 1), (jnp.inf, 1), (jnp.nan, 0)):
         assert int(cell_of(Point(x, 0.0, 0.0), grid)) == want
     assert int(cell_of(Point(9.0, 9.0, 9.0), grid)) == 2 * 3 * 4 - 1

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 import scanvec as sv
-from dt3d.extrapolation import search as search_module
+from dt3d.extrapolation import buckets as buckets_module
+from dt3d.extrapolation import cell_search, tree
 from dt3d.extrapolation.boxes import cell_of
-from dt3d.extrapolation.buckets import MOST_CELLS_PER_SITE, bucket
-from dt3d.extrapolation.expansion import Face, expand
-from dt3d.extrapolation.gift_wrapping import NEAREST, Start, first_facets
+from dt3d.extrapolation.buckets import bucket, morton_code
+from dt3d.extrapolation.expansion import FILTERED, Face, expand_perturbed, open_exact_face
+from dt3d.extrapolation.gift_wrapping import NEAREST, Start, first_facets, squared_distance_to_box
 from dt3d.extrapolation.points import Point
 from dt3d.extrapolation.search import NO_SITE, search
 
@@ -22,8 +23,11 @@ SETS = {
 }
 
 
-def load(points):
-    return bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T)))
+@pytest.fixture(params=["cells", "tree"])
+def load(request, monkeypatch):
+    """Buckets of points, whose searches go through cells or through a tree."""
+    monkeypatch.setattr(buckets_module, "EVEN", np.inf if request.param == "cells" else 0)
+    return lambda points: bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T)))
 
 
 def in_order(buckets):
@@ -31,30 +35,95 @@ def in_order(buckets):
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_buckets(name):
+def test_buckets(name, load):
     points = SETS[name]
     buckets = load(points)
     np.testing.assert_array_equal(in_order(buckets), points[buckets.origin.to_numpy()])
     assert sorted(buckets.origin.to_numpy().tolist()) == list(range(len(points)))
-    starts, counts = buckets.starts.to_numpy(), buckets.counts.to_numpy()
-    grid = buckets.grid
-    assert len(counts) == grid.nx * grid.ny * grid.nz <= 2 * MOST_CELLS_PER_SITE * len(points) + 1
+    if buckets.cells is None:
+        return
+    grid, starts, counts = buckets.cells[0], buckets.cells.starts.to_numpy(), buckets.cells.counts.to_numpy()
+    assert len(counts) == grid.nx * grid.ny * grid.nz
     assert counts.sum() == len(points)
-    np.testing.assert_array_equal(starts, np.cumsum(counts) - counts)
     cells = MACHINE.map(cell_of, buckets.sites, grid).to_numpy()
-    np.testing.assert_array_equal(cells, np.repeat(np.arange(len(counts)), counts))
+    for cell in np.flatnonzero(counts):
+        assert (cells[starts[cell] : starts[cell] + counts[cell]] == cell).all()
+
+
+def test_sites_that_fill_space_evenly_get_cells():
+    sets = SETS | {"plane": np.c_[RNG.random((3000, 2)), np.zeros(3000)], "normal": RNG.standard_normal((3000, 3))}
+    even = {
+        name: bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T))).cells is not None
+        for name, points in sets.items()
+    }
+    assert even["uniform"]
+    assert even["plane"]  # the cells are squares
+    assert not even["clusters"]
+
+
+def test_morton_codes():
+    i, j, k = (MACHINE.vector(np.array(v)) for v in ([1, 0, 0, 5, 2**21 - 1], [0, 1, 0, 0, 2**21 - 1], [0, 0, 1, 0, 2**21 - 1]))
+    assert MACHINE.map(morton_code, i, j, k).to_numpy().tolist() == [1, 2, 4, 0b1000001, 2**63 - 1]
+
+
+def test_sites_with_equal_codes_get_finer_ones():
+    cluster = RNG.random((200, 3)) * 2.0**-40
+    points = np.concatenate([cluster, cluster + 1])
+    buckets = bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T)))
+    ordered = in_order(buckets)
+    # a curve through a cluster is far shorter than a walk in no order
+    steps = np.linalg.norm(np.diff(ordered[:200], axis=0), axis=1)
+    assert steps.sum() < 0.5 * np.linalg.norm(np.diff(points[:200], axis=0), axis=1).sum()
+
+
+@pytest.mark.parametrize("n", [1, 8, 9, 64, 65, 600])
+def test_the_tree_holds_every_site_once_on_every_level(n):
+    points = RNG.random((n, 3))
+    built = tree.build(Point(*(MACHINE.vector(c.copy()) for c in points.T)))
+    low, high = (np.stack([v.to_numpy() for v in p], axis=1) for p in (built.low, built.high))
+    for level, (first, size) in enumerate(zip(built.first, built.sizes, strict=True)):
+        for node in range(size):
+            own = points[node * 8 ** (level + 1) : (node + 1) * 8 ** (level + 1)]
+            np.testing.assert_array_equal(low[first + node], own.min(axis=0))
+            np.testing.assert_array_equal(high[first + node], own.max(axis=0))
+    assert built.sizes[-1] <= 8
+
+
+def test_a_descent_finds_every_leaf_that_admits(monkeypatch):
+    points = RNG.random((600, 3))
+    sites = Point(*(MACHINE.vector(c.copy()) for c in points.T))
+    built = tree.build(sites)
+    radius = MACHINE.vector(np.linspace(0.01, 0.5, 50))
+    centre = sv.get(sites, MACHINE.iota(50))
+    test = tree.entry_test(_ball_meets)
+    for most in (tree.MOST_REQUESTS, 40):
+        monkeypatch.setattr(tree, "MOST_REQUESTS", most)
+        batches = list(tree.descend(built, (centre, radius), test))
+        query = np.concatenate([b.query.to_numpy() for b in batches])
+        leaf = np.concatenate([b.node.to_numpy() for b in batches])
+        assert (np.diff(query) >= 0).all()
+        low, high = (np.stack([v.to_numpy() for v in p], axis=1)[: built.sizes[0]] for p in (built.low, built.high))
+        for q in range(50):
+            gap = np.maximum(np.maximum(low - points[q], points[q] - high), 0)
+            want = np.flatnonzero((gap**2).sum(axis=1) <= radius.to_numpy()[q] ** 2)
+            assert sorted(leaf[query == q].tolist()) == want.tolist()
+
+
+def _ball_meets(ball, low, high):
+    centre, radius = ball
+    return squared_distance_to_box(centre, low, high) <= radius * radius
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_nearest_site(name):
+def test_nearest_site(name, load):
     buckets = load(SETS[name])
     sites = in_order(buckets)
     answer = search(buckets, Start(buckets.sites, MACHINE.iota(len(sites))), NEAREST)
     squared = ((sites[:, None] - sites) ** 2).sum(axis=2)
     np.fill_diagonal(squared, np.inf)
-    np.testing.assert_array_equal(answer.site.to_numpy(), squared.argmin(axis=1))
-    np.testing.assert_allclose(answer.score.to_numpy(), squared.min(axis=1), rtol=1e-14)
-    assert len(sites) <= answer.sites_searched <= len(sites) ** 2
+    np.testing.assert_array_equal(answer.best.site.to_numpy(), squared.argmin(axis=1))
+    np.testing.assert_allclose(answer.best.high.to_numpy(), squared.min(axis=1), rtol=1e-14)
+    assert len(sites) <= answer.sites_searched <= (len(sites) + 8) ** 2
 
 
 def circumradii(a, b, c):
@@ -67,7 +136,7 @@ def circumradii(a, b, c):
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_first_facets(name):
+def test_first_facets(name, load):
     buckets = load(SETS[name])
     sites = in_order(buckets)
     a, b, c = (v.to_numpy() for v in first_facets(buckets))
@@ -94,20 +163,27 @@ def fourth_vertex(sites, a, b, c):
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_face_expansion(name):
+def test_face_expansion(name, load):
     buckets = load(SETS[name])
     sites = in_order(buckets)
     faces = np.array([RNG.permutation(len(sites))[:3] for _ in range(60)], np.int32)  # mostly long ones
-    answer = expand(buckets, Face(*(MACHINE.vector(f.copy()) for f in faces.T)))
-    want = [fourth_vertex(sites, *face) for face in faces]
-    np.testing.assert_array_equal(answer.site.to_numpy(), want)
+    faces = Face(*(MACHINE.vector(f.copy()) for f in faces.T))
+    want = [fourth_vertex(sites, *face) for face in np.stack([v.to_numpy() for v in faces], axis=1)]
+    answer = expand_perturbed(buckets, faces)
+    np.testing.assert_array_equal(answer.best.site.to_numpy(), want)
+
+    corners = (sv.get(buckets.sites, v) for v in faces)
+    bounded = search(buckets, MACHINE.map(open_exact_face, faces, *corners, True, False), FILTERED).best
+    decided = bounded.second.to_numpy() > bounded.high.to_numpy()
+    assert decided.sum() >= np.count_nonzero(np.array(want) != NO_SITE) - 1
+    np.testing.assert_array_equal(bounded.site.to_numpy()[decided], np.array(want)[decided])
 
 
 def test_queries_wait_where_memory_is_bounded(monkeypatch):
-    buckets = load(SETS["uniform"])
+    buckets = bucket(Point(*(MACHINE.vector(c.copy()) for c in SETS["uniform"].T)))
     start = Start(buckets.sites, MACHINE.iota(300))
     free = search(buckets, start, NEAREST)
-    monkeypatch.setattr(search_module, "MOST_REQUESTS", 64)
+    monkeypatch.setattr(cell_search, "MOST_REQUESTS", 64)
     bounded = search(buckets, start, NEAREST)
-    np.testing.assert_array_equal(bounded.site.to_numpy(), free.site.to_numpy())
+    np.testing.assert_array_equal(bounded.best.site.to_numpy(), free.best.site.to_numpy())
     assert bounded.sites_searched == free.sites_searched

@@ -1,0 +1,154 @@
+"""The search through uniform cells, by requests and warrants.
+
+Teng et al. 1993, section 4.2. All queries search at once, in rounds: each opens some cells, and two segmented
+lists turn their unequal loads into lengths of vectors, which the machine shares out evenly:
+
+* a *request* for every (query, cell) pair; cells that cannot hold a better site are pruned;
+* for every request, as many *warrants* as its cell's sites need, each for at most `SITES_PER_WARRANT` sites.
+
+A query's warrants are consecutive in the list, a super-segment; a segmented scan finds the best of each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+import scanvec as sv
+
+from .boxes import Box, Grid, contains, corners, difference_cell, empty_box, extend, volume
+from .buckets import Buckets, Cells
+from .search import LEAST, SITES_PER_WARRANT, Answer, Best, Question, execute, nothing_found
+from .search import _least as least
+
+# A box grows by one cell in each direction for two rounds, then by two for two more, by four, ... After so
+# many rounds all cells that are left are opened at once (the paper's "preset limit").
+ROUNDS_BEFORE_ALL = 8
+EVERY_CELL = 2**20  # more cells than any grid has along a side
+# Queries that would take a round beyond so many requests wait for the next one; it bounds the memory.
+MOST_REQUESTS = 2**20
+
+
+class Search(NamedTuple):
+    """State of the queries that are still searching."""
+
+    index: Any  # the query's place among all
+    query: Any
+    best: Best
+    dead: Box
+    new: Box
+    rounds: Any
+
+
+def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
+    """The site of least score for each of m queries, a record of vectors of length m."""
+    assert buckets.cells is not None
+    machine, cells = buckets.machine, buckets.cells
+    steps = _steps_of(question)
+    m = len(jax.tree.leaves(queries)[0])
+    answer = nothing_found(machine, m, buckets.sites.x.dtype)
+    dead, new = machine.map(steps.begin, queries, cells.grid)
+    state = Search(machine.iota(m), queries, answer, dead, new, machine.full(m, 0, np.int32))
+    searched = 0
+    while len(state.index):
+        state, done, count = _round(buckets, cells, state, question, steps)
+        searched += count
+        answer = sv.permute(state.best, state.index, into=answer, where=done)
+        state = sv.pack(state, ~done)
+    return Answer(answer, searched)
+
+
+def _round(
+    buckets: Buckets, cells: Cells, state: Search, question: Question, steps: _Steps
+) -> tuple[Search, sv.Vector, int]:
+    machine, grid = buckets.machine, cells.grid
+    counts = machine.map(_cells_to_open, state.new, state.dead)
+    # added up in 64 bits: thousands of faces may ask for all of thousands of cells
+    going = machine.map(_fits, sv.scan(counts.astype(np.int64), sv.ADD))
+    counts = machine.map(_if, going, counts, 0)
+
+    # requests: one for each cell that a query opens
+    requests = sv.Segments.from_lengths(counts)
+    asked = sv.get((state.query, state.best.high, state.new, state.dead), requests.ids)
+    cell, admitted = machine.map(steps.request, *asked, requests.offsets, grid)
+    start, count = sv.get((cells.starts, cells.counts), cell, where=admitted)
+
+    # warrants: one for each few sites of a request's cell
+    wanted = machine.map(_warrants_for, count)
+    warrants = sv.Segments.from_lengths(wanted)
+    start, count, owner = sv.get((start, count, requests.ids), warrants.ids)
+    start, length = machine.map(_range, start, count, warrants.offsets)
+    found = execute(buckets, sv.get(state.query, owner), start, length, question)
+
+    # the best of each query's super-segment
+    per_query = sv.Segments.from_lengths(sv.reduce(wanted, sv.ADD, requests))
+    found = sv.reduce(found, LEAST, per_query)
+    state, done = machine.map(steps.conclude, state, found, going, grid)
+    return state, done, int(sv.reduce(length, sv.ADD))
+
+
+class _Steps(NamedTuple):
+    """The elementwise steps of a round for one question."""
+
+    begin: Callable
+    request: Callable
+    conclude: Callable
+
+
+_STEPS: dict[Question, _Steps] = {}
+
+
+def _steps_of(question: Question) -> _Steps:
+    # made once for a question, so that compiled kernels are found again
+    if question not in _STEPS:
+        _STEPS[question] = _make_steps(question)
+    return _STEPS[question]
+
+
+def _make_steps(question: Question) -> _Steps:
+    def begin(query: Any, grid: Grid) -> tuple[Box, Box]:
+        new = question.first_box(query, grid)
+        return empty_box(new.x0), new
+
+    def request(query: Any, bound: Any, new: Box, dead: Box, k: Any, grid: Grid) -> tuple[Any, Any]:
+        i, j, h = difference_cell(new, dead, k)
+        low, high = corners(i, j, h, grid)
+        return i + grid.nx * (j + grid.ny * h), question.admits(query, bound, low, high)
+
+    def conclude(state: Search, found: Best, going: Any, grid: Grid) -> tuple[Search, Any]:
+        best = least(state.best, found)
+        dead = Box(*(jnp.where(going, n, d) for n, d in zip(state.new, state.dead, strict=True)))
+        target = question.region(state.query, best.high, grid)
+        done = going & contains(dead, target)
+        rounds = state.rounds + going
+        growth = jnp.left_shift(1, (rounds - 1) // 2)
+        new = extend(dead, target, jnp.where(rounds < ROUNDS_BEFORE_ALL, growth, EVERY_CELL))
+        new = Box(*(jnp.where(going, g, n) for g, n in zip(new, state.new, strict=True)))
+        return Search(state.index, state.query, best, dead, new, rounds), done
+
+    return _Steps(begin, request, conclude)
+
+
+def _cells_to_open(new: Box, dead: Box) -> Any:
+    return volume(new) - volume(dead)
+
+
+def _fits(before: Any) -> Any:
+    return before < MOST_REQUESTS
+
+
+def _if(flag: Any, a: Any, b: Any) -> Any:
+    return jnp.where(flag, a, b)
+
+
+def _warrants_for(count: Any) -> Any:
+    return (count + SITES_PER_WARRANT - 1) // SITES_PER_WARRANT
+
+
+def _range(start: Any, count: Any, k: Any) -> tuple[Any, Any]:
+    first = k * SITES_PER_WARRANT
+    return start + first, jnp.minimum(count - first, SITES_PER_WARRANT)

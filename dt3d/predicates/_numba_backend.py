@@ -1,0 +1,31 @@
+"""Signs of many cases by the compiled predicates, one after the other."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from . import filtered
+from .expansions import work_array
+
+
+def signs(predicate: str, cases: np.ndarray) -> np.ndarray:
+    """int8 (m,) of cases float64 (m, k, d)."""
+    out = np.empty(len(cases), np.int8)
+    _LOOPS[predicate](cases, work_array(), out)
+    return out
+
+
+@numba.njit(cache=True)
+def _orient3d(cases, w, out):
+    for i in range(len(out)):
+        out[i] = filtered.orient3d(cases[i], 0, 1, 2, 3, w)
+
+
+@numba.njit(cache=True)
+def _in_sphere(cases, w, out):
+    for i in range(len(out)):
+        out[i] = filtered.in_sphere(cases[i], 0, 1, 2, 3, 4, w)
+
+
+_LOOPS = {"orient3d": _orient3d, "in_sphere": _in_sphere}

@@ -1,0 +1,77 @@
+"""The predicates on arrays of points, checked, for one of two backends."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+# where the signs of cases (m, k, d) come from
+BACKENDS = {"numba": "._numba_backend", "jax": "._jax_backend"}
+
+
+def in_range(coordinates: Any) -> bool:
+    """Whether all coordinates are zero or have all their bits within `EXPONENTS`."""
+    from .expansions import EXPONENTS
+
+    x = np.abs(np.asarray(coordinates, np.float64))
+    low, high = EXPONENTS
+    return bool(((x == 0) | ((x >= 2.0 ** (low + 53)) & (x < 2.0**high))).all())
+
+
+def orient3d(a: Any, b: Any, c: Any, d: Any, *, backend: str = "numba") -> Any:
+    """Signs of det[b-a, c-a, d-a]: positive for the origin and the three unit vectors in order.
+
+    Parameters
+    ----------
+    a, b, c, d : array_like of float64 (..., 3)
+        Points; the leading shapes broadcast.
+    backend : "numba" or "jax"
+        A floating-point filter before an exact stage, on one thread of a CPU; or integers, on whatever JAX
+        runs on. The signs are the same.
+
+    Returns
+    -------
+    int8 (...)
+        -1, 0 or 1; 0 exactly where the four are coplanar.
+
+    Raises
+    ------
+    ValueError
+        If a coordinate is not finite, the points have another shape, or there is no such backend.
+    """
+    return _signs("orient3d", 3, backend, a, b, c, d)
+
+
+def in_sphere(a: Any, b: Any, c: Any, d: Any, e: Any, *, backend: str = "numba") -> Any:
+    """Signs of the in-sphere determinant: for positive abcd 1 where e is inside their sphere, 0 where on it.
+
+    Parameters, result and errors as for `orient3d`.
+    """
+    return _signs("in_sphere", 3, backend, a, b, c, d, e)
+
+
+def _signs(predicate: str, dimension: int, backend: str, *points: Any) -> Any:
+    if backend not in BACKENDS:
+        msg = f"backend must be one of {', '.join(map(repr, BACKENDS))}, got {backend!r}"
+        raise ValueError(msg)
+    arrays = np.broadcast_arrays(*(np.asarray(p, np.float64) for p in points))
+    if arrays[0].ndim == 0 or arrays[0].shape[-1] != dimension:
+        msg = f"points must have shape (..., {dimension}), got {arrays[0].shape}"
+        raise ValueError(msg)
+    if not all(np.isfinite(x).all() for x in arrays):
+        msg = "coordinates must be finite, got NaN or infinity; drop those points first"
+        raise ValueError(msg)
+    if backend == "numba" and not all(map(in_range, arrays)):
+        from .expansions import EXPONENTS
+
+        msg = (
+            f"coordinates must be zero or between 2^{EXPONENTS[0] + 53} and 2^{EXPONENTS[1]} in magnitude "
+            f"for exact signs; scale by a power of two"
+        )
+        raise ValueError(msg)
+    shape = arrays[0].shape[:-1]
+    cases = np.stack([x.reshape(-1, dimension) for x in arrays], axis=1)
+    signs = import_module(BACKENDS[backend], __package__).signs(predicate, cases)
+    return signs.reshape(shape)[()]
