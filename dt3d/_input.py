@@ -33,7 +33,7 @@ def check_points(points: Any) -> np.ndarray:
         msg = f"points must be real numbers of shape (n, 3), got dtype {given.dtype}"
         raise ValueError(msg)
     if given.ndim != 2 or given.shape[1] != 3:
-        msg = f"points must have shape (n, 3), got {given.shape}"
+        msg = f"points must have shape (n, 3), got {given.shape}; dt3d works in 3 dimensions"
         raise ValueError(msg)
     if not len(given):
         msg = "points are empty; a triangulation needs at least four sites"

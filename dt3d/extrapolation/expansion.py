@@ -1,8 +1,8 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two forms:
-`PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are compared as
-they come; and `FILTERED`, which knows each only between bounds.
+Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two
+forms: `PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are
+compared as they come; and `FILTERED`, which knows each only between bounds.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from .gift_wrapping import squared_distance_to_box
 from .points import Point, add, dot, epsilon, norm, sub
 from .regions import bounding_box, box_towards, cap_box
 from .search import Answer, Question, search
-
 
 # Bounds that a tree search tries before it does without.
 TRIALS = 4
@@ -100,9 +99,7 @@ PERTURBED = Question(
 # for sites as they are
 
 
-def open_exact_face(
-    face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any
-) -> OpenFace:
+def open_exact_face(face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> OpenFace:
     return OpenFace(filtered_distance.frame(a, b, c, filterable, lattice), *bounding_box(a, b, c), face)
 
 

@@ -80,14 +80,19 @@ class Edge(NamedTuple):
     site_b: Any
 
 
-def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
-    """Squared circumradius of (a, b, site): |ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2)."""
-    ab, ac, bc = sub(query.b, query.a), sub(site, query.a), sub(site, query.b)
+def squared_circumradius(a: Point, b: Point, c: Point) -> Any:
+    """|ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2); inf for flat triangles."""
+    ab, ac, bc = sub(b, a), sub(c, a), sub(c, b)
     normal = cross(ab, ac)
     area = dot(normal, normal)
-    flat = (area <= 0) | (index == query.site_a) | (index == query.site_b)
+    flat = area <= 0
     product = dot(ab, ab) * dot(ac, ac) * dot(bc, bc)
-    score = jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+    return jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+
+
+def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
+    own = (index == query.site_a) | (index == query.site_b)
+    score = jnp.where(own, jnp.inf, squared_circumradius(query.a, query.b, site))
     return score, score
 
 

@@ -190,8 +190,8 @@ def _wrapped_facets(buckets: Buckets) -> Face:
 def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
     if exact and out.inconsistencies:
         msg = (
-            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: this is "
-            f"an error of dt3d, please report it with the points"
+            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: "
+            f"this is an error of dt3d, please report it with the points"
         )
         raise InconsistencyError(msg, out.inconsistencies)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too

@@ -49,10 +49,9 @@ def cap_box(
     cap_low, cap_high = _cap_bounds(origin, normal, centre, jnp.where(found, distance, 0))
     room = grid.side * 1e-3 + grid.slack
     # fmax and fmin leave out bounds that are not numbers
-    low = Point(*(jnp.where(found, jnp.fmax(u, v - slack), u) - room for u, v in zip(low, cap_low, strict=True)))
-    high = Point(
-        *(jnp.where(found, jnp.fmin(u, v + slack), u) + room for u, v in zip(high, cap_high, strict=True))
-    )
+    lower = (jnp.where(found, jnp.fmax(u, v - slack), u) for u, v in zip(low, cap_low, strict=True))
+    upper = (jnp.where(found, jnp.fmin(u, v + slack), u) for u, v in zip(high, cap_high, strict=True))
+    low, high = Point(*(x - room for x in lower)), Point(*(x + room for x in upper))
     return containment_box(low, high, grid)
 
 

@@ -1,9 +1,9 @@
 """The search for each query's best site.
 
-Three searches of the algorithm (a nearest site, a smallest circumcircle, a face expansion) ask for the site of
-least score near a query. A score may be known up to rounding only, so it is a pair of bounds, and an answer
-says whether the bounds leave more than one site. All queries search at once: sites that fill space evenly
-through cells (`cell_search`), others through a tree of boxes (`tree_search`).
+Three searches of the algorithm (a nearest site, a smallest circumcircle, a face expansion) ask for the site
+of least score near a query. A score may be known up to rounding only, so it is a pair of bounds, and an
+answer says whether the bounds leave more than one site. All queries search at once: sites that fill space
+evenly through cells (`cell_search`), others through a tree of boxes (`tree_search`).
 """
 
 from __future__ import annotations

@@ -51,7 +51,10 @@ def test_buckets(name, load):
 
 
 def test_sites_that_fill_space_evenly_get_cells():
-    sets = SETS | {"plane": np.c_[RNG.random((3000, 2)), np.zeros(3000)], "normal": RNG.standard_normal((3000, 3))}
+    sets = SETS | {
+        "plane": np.c_[RNG.random((3000, 2)), np.zeros(3000)],
+        "normal": RNG.standard_normal((3000, 3)),
+    }
     even = {
         name: bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T))).cells is not None
         for name, points in sets.items()
@@ -62,7 +65,10 @@ def test_sites_that_fill_space_evenly_get_cells():
 
 
 def test_morton_codes():
-    i, j, k = (MACHINE.vector(np.array(v)) for v in ([1, 0, 0, 5, 2**21 - 1], [0, 1, 0, 0, 2**21 - 1], [0, 0, 1, 0, 2**21 - 1]))
+    i, j, k = (
+        MACHINE.vector(np.array(v))
+        for v in ([1, 0, 0, 5, 2**21 - 1], [0, 1, 0, 0, 2**21 - 1], [0, 0, 1, 0, 2**21 - 1])
+    )
     assert MACHINE.map(morton_code, i, j, k).to_numpy().tolist() == [1, 2, 4, 0b1000001, 2**63 - 1]
 
 
@@ -102,7 +108,9 @@ def test_a_descent_finds_every_leaf_that_admits(monkeypatch):
         query = np.concatenate([b.query.to_numpy() for b in batches])
         leaf = np.concatenate([b.node.to_numpy() for b in batches])
         assert (np.diff(query) >= 0).all()
-        low, high = (np.stack([v.to_numpy() for v in p], axis=1)[: built.sizes[0]] for p in (built.low, built.high))
+        low, high = (
+            np.stack([v.to_numpy() for v in p], axis=1)[: built.sizes[0]] for p in (built.low, built.high)
+        )
         for q in range(50):
             gap = np.maximum(np.maximum(low - points[q], points[q] - high), 0)
             want = np.flatnonzero((gap**2).sum(axis=1) <= radius.to_numpy()[q] ** 2)
