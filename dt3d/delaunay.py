@@ -87,6 +87,8 @@ class Delaunay:
     -----
     InconsistencyWarning
         If the result has inconsistencies, or if sites coincide in the working precision only.
+    QuadraticSearchWarning
+        If extrapolation compares each of many faces with thousands of sites, as on one sphere.
 
     Examples
     --------

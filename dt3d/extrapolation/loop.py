@@ -182,7 +182,10 @@ def _wrapped_facets(buckets: Buckets) -> Face:
     # a site whose nearest one is so near that all triangles with both look flat waits for others' faces
     facets = sv.pack(facets, facets.c != NO_SITE)
     if not len(facets.a):
-        msg = "no three sites form a triangle that this precision can tell from a flat one"
+        msg = (
+            "no three sites form a triangle that this precision can tell from a flat one; method='insertion' "
+            "needs none"
+        )
         raise InconsistencyError(msg, 0)
     return distinct_facets(facets)
 
