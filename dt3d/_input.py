@@ -33,7 +33,7 @@ def check_points(points: Any) -> np.ndarray:
         msg = f"points must be real numbers of shape (n, 3), got dtype {given.dtype}"
         raise ValueError(msg)
     if given.ndim != 2 or given.shape[1] != 3:
-        msg = f"points must have shape (n, 3), got {given.shape}; dt3d works in 3 dimensions"
+        msg = f"points must have shape (n, 3), got {given.shape}"
         raise ValueError(msg)
     if not len(given):
         msg = "points are empty; a triangulation needs at least four sites"
@@ -106,24 +106,10 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
 
 
 def exactly_scaled(sites: np.ndarray) -> np.ndarray:
-    """Sites times a power of two, float64 (n, 3).
+    """Sites times a power of two, float64 (n, 3): the greatest coordinate is about 1, where that is exact.
 
-    Scaling is exact, and every coordinate is in the range of the exact predicates.
-
-    Raises
-    ------
-    ValueError
-        If no power of two brings all coordinates into that range: some is over 2^137 times another.
+    Elsewhere, where coordinates are more than 2^1000 apart in magnitude, the sites themselves.
     """
-    from .predicates import in_range
+    from .predicates import scaled
 
-    greatest = np.abs(sites).max()
-    scaled = np.ldexp(sites, -int(np.frexp(greatest)[1])) if greatest else sites
-    if not in_range(scaled):
-        least = np.abs(sites[sites != 0]).min()
-        msg = (
-            f"coordinates from {least:g} to {greatest:g} in magnitude are too far apart for exact insertion "
-            f"(2^137 is possible); set the small ones to zero, or use method='extrapolation'"
-        )
-        raise ValueError(msg)
-    return scaled
+    return scaled(sites)

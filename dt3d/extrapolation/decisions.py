@@ -17,9 +17,9 @@ import scanvec as sv
 
 from .._errors import QuadraticSearchWarning
 from .exact_sites import ExactSites
-from .expansion import FILTERED, Face, open_exact_face
+from .expansion import FILTERED, Face, open_exact_face, search_faces
 from .points import Point
-from .search import NO_SITE, Best, search
+from .search import NO_SITE, Best
 from .tree import FANOUT, Request, descend, entry_test, unfold
 from .tree_search import Bounded
 
@@ -47,9 +47,9 @@ def expand_exactly(exact: ExactSites, faces: Face) -> tuple[Expansion, Counts]:
     """The fourth vertex of each face under the symbolic perturbation."""
     buckets = exact.buckets
     machine, m = buckets.machine, len(faces.a)
-    a, b, c = (sv.get(buckets.sites, v) for v in faces)
-    queries = machine.map(open_exact_face, faces, a, b, c, exact.filterable, exact.lattice)
-    best, searched = search(buckets, queries, FILTERED)
+    corners = [sv.get(buckets.sites, v) for v in faces]
+    queries = machine.map(open_exact_face, faces, *corners, exact.filterable, exact.lattice)
+    best, searched = search_faces(buckets, queries, corners, FILTERED)
     site, low, undecided = machine.map(_conclude, best)
     refuter = machine.full(m, NO_SITE, np.int32)
     index = sv.pack_index(undecided)

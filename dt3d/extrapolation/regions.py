@@ -10,24 +10,6 @@ from .boxes import Box, Grid, containment_box
 from .points import Point, add, dot, epsilon, norm, scale, sub
 
 
-def bounding_box(*points: Point) -> tuple[Point, Point]:
-    """Lowest and highest corner of the box of some points."""
-    low = Point(*(jnp.min(jnp.stack(x)) for x in zip(*points, strict=True)))
-    high = Point(*(jnp.max(jnp.stack(x)) for x in zip(*points, strict=True)))
-    return low, high
-
-
-def box_towards(low: Point, high: Point, centre: Point, grid: Grid) -> Box:
-    """The containment box of a face's own box and its circumcentre, which may be a cell beyond it at most.
-
-    Faces of slivers at the hull have circumcentres far away; opening all cells on the way would be in vain.
-    """
-    reach = grid.side
-    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - reach)) for u, v in zip(low, centre, strict=True)))
-    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + reach)) for u, v in zip(high, centre, strict=True)))
-    return containment_box(low, high, grid)
-
-
 def cap_box(
     origin: Point, normal: Point, doubt: Point, centre: Point, distance: Any, slack: Any, grid: Grid
 ) -> Box:

@@ -157,11 +157,12 @@ def test_decisions_do_not_depend_on_batches(monkeypatch):
 
 
 def test_without_exact_decisions_the_result_is_wrong(monkeypatch):
-    """Were the filter's first guess taken where it leaves several sites, faces would contradict each other."""
+    """Were the filter's first guess taken where it leaves several, faces would contradict each other."""
 
     def guess(exact, queries):
         nobody = MACHINE.full(len(queries.high), NO_SITE, np.int32)
-        best, searched = decisions.search(exact.buckets, queries.query, FILTERED)
+        corners = [sv.get(exact.buckets.sites, v) for v in queries.query.face]
+        best, searched = decisions.search_faces(exact.buckets, queries.query, corners, FILTERED)
         return best.site, nobody, searched
 
     monkeypatch.setattr(decisions, "_decide", guess)
