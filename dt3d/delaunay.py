@@ -77,7 +77,8 @@ class Delaunay:
     Raises
     ------
     ValueError
-        For input that is not finite, real and of shape (n, 3), and for unknown options.
+        For input that is not finite, real and of shape (n, 3), and for unknown options; by extrapolation also
+        where coordinates differ by less than 2^-200 of the greatest one.
     DegenerateInputError
         If all sites lie on a plane, a line or a point.
     InconsistencyError

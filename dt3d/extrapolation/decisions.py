@@ -48,7 +48,7 @@ def expand_exactly(exact: ExactSites, faces: Face) -> tuple[Expansion, Counts]:
     buckets = exact.buckets
     machine, m = buckets.machine, len(faces.a)
     corners = [sv.get(buckets.sites, v) for v in faces]
-    queries = machine.map(open_exact_face, faces, *corners, exact.filterable, exact.lattice)
+    queries = machine.map(open_exact_face, faces, *corners, exact.lattice)
     best, searched = search_faces(buckets, queries, corners, FILTERED)
     site, low, undecided = machine.map(_conclude, best)
     refuter = machine.full(m, NO_SITE, np.int32)

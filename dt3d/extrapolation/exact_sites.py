@@ -22,6 +22,19 @@ LATTICE_BITS = 16
 LEAST_DIFFERENCE = 2.0**-200
 
 
+def check_magnitudes(coordinates: np.ndarray) -> None:
+    """Raise ValueError where products of the filter would under- or overflow."""
+    with np.errstate(over="ignore"):
+        gaps = [np.diff(np.unique(x)) for x in coordinates.T]
+    least = min(float(g.min(initial=np.inf)) for g in gaps)
+    if float(np.abs(coordinates).max()) > 1 or least < LEAST_DIFFERENCE:
+        msg = (
+            "extrapolation takes coordinates whose least difference is at least 2^-200 of the greatest one; "
+            "these are closer. Use method='insertion', without a machine, which takes any"
+        )
+        raise ValueError(msg)
+
+
 @dataclass(frozen=True)
 class ExactSites:
     """What exact decisions need of the sites of some buckets.
@@ -47,15 +60,6 @@ class ExactSites:
             return False
         values = sum(x.astype(np.int64) << (BITS * k) for k, x in enumerate(self._limbs))
         return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
-
-    @cached_property
-    def filterable(self) -> bool:
-        """Whether floating point may decide anything: not where its products would under- or overflow."""
-        with np.errstate(over="ignore"):
-            gaps = [np.diff(np.unique(x)) for x in self.coordinates.T]
-        least = min(float(g.min(initial=np.inf)) for g in gaps)
-        greatest = float(np.abs(self.coordinates).max())
-        return greatest <= 1.0 and least >= LEAST_DIFFERENCE
 
     @cached_property
     def digits(self) -> tuple[tuple[sv.Vector, ...], ...]:

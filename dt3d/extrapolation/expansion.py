@@ -111,8 +111,8 @@ PERTURBED = Question(_perturbed_score, _homes, _perturbed_region, _perturbed_adm
 # for sites as they are
 
 
-def open_exact_face(face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> OpenFace:
-    return OpenFace(filtered_distance.frame(a, b, c, filterable, lattice), face)
+def open_exact_face(face: Face, a: Point, b: Point, c: Point, lattice: Any) -> OpenFace:
+    return OpenFace(filtered_distance.frame(a, b, c, lattice), face)
 
 
 def _bounds(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:

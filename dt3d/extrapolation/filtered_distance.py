@@ -25,8 +25,8 @@ multiplies by at most 1 + e; contraction to fused multiply-add leaves roundings 
   |w_i| (10e |w_i - 2 o_i| + q), q = 44e k^2 (U+V), with room for the roundings of numerator +- error and of
   the quotient.
 
-Where k exceeds 2^40 (a face so thin that terms of second order count), or products may under- or overflow,
-nothing is decided.
+Where k exceeds 2^40 (a face so thin that terms of second order count) nothing is decided. No product over- or
+underflows: `exact_sites` sees to that.
 """
 
 from __future__ import annotations
@@ -52,12 +52,8 @@ def absolute(p: Point) -> Point:
     return Point(jnp.abs(p.x), jnp.abs(p.y), jnp.abs(p.z))
 
 
-def frame(a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> Frame:
-    """The frame of the face (a, b, c).
-
-    ``filterable`` says that no product under- or overflows, ``lattice`` that heights are exact, for small
-    integers.
-    """
+def frame(a: Point, b: Point, c: Point, lattice: Any) -> Frame:
+    """The frame of the face (a, b, c); ``lattice`` says that heights are exact, for small integers."""
     e = epsilon(a.x)
     ab, bc, ca = sub(b, a), sub(c, b), sub(a, c)
     lengths = dot(ab, ab), dot(bc, bc), dot(ca, ca)
@@ -75,7 +71,7 @@ def frame(a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> Frame:
     uu, vv, ss = dot(u, u), dot(v, v), dot(normal, normal)
     thinness = uu * vv / ss
     centre = scale(0.5 / ss, cross(sub(scale(uu, v), scale(vv, u)), normal))
-    decided = filterable & (thinness < 2.0**80)
+    decided = thinness < 2.0**80
     blur = jnp.where(decided, 44 * e * thinness * (jnp.sqrt(uu) + jnp.sqrt(vv)), jnp.inf)
     exact = jnp.where(lattice, 0.0, 12 * e)
     doubt = Point(*(jnp.where(decided, exact * x, jnp.inf) for x in size))

@@ -30,7 +30,7 @@ from .dead_faces import (
     open_faces,
 )
 from .decisions import Counts, expand_exactly
-from .exact_sites import ExactSites
+from .exact_sites import ExactSites, check_magnitudes
 from .expansion import Face, expand_perturbed
 from .gift_wrapping import first_facets
 from .points import Point
@@ -93,7 +93,11 @@ def triangulate(
     ------
     InconsistencyError
         If too many tetrahedra contradict each other for the set to be finished.
+    ValueError
+        If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
+    if exact:
+        check_magnitudes(sites)
     clock = _Clock(machine)
     with clock.phase("buckets"):
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))

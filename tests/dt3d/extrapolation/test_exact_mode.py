@@ -66,7 +66,7 @@ def test_bounds_hold_the_signed_distance(name):
     for a, b, c in faces:
         face = Face(*(MACHINE.vector(np.full(n, index[v], np.int32)) for v in (a, b, c)))
         corners = (sv.get(exact.buckets.sites, v) for v in face)
-        query = MACHINE.map(open_exact_face, face, *corners, exact.filterable, exact.lattice)
+        query = MACHINE.map(open_exact_face, face, *corners, exact.lattice)
         bounds = MACHINE.map(FILTERED.score, query, exact.buckets.sites, MACHINE.iota(n))
         low, high = (v.to_numpy() for v in bounds)
         others = np.setdiff1d(np.arange(n), [a, b, c])
@@ -104,11 +104,12 @@ def test_lattices_are_seen():
     assert not exact_sites(lexicographic(grid(3) * [2.0**17, 1, 1])).lattice
 
 
-def test_sites_too_close_for_floating_point_are_not_filtered():
-    assert exact_sites(lexicographic(SETS["two scales"])).filterable
-    assert not exact_sites(lexicographic(SETS["uniform"] * np.repeat([1, 2.0**-250], 30)[:, None])).filterable
-    points = lexicographic(grid(3) * 2.0**300)  # not scaled
-    assert not ExactSites(bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T))), points).filterable
+@pytest.mark.parametrize("factor", [2.0**-210, 2.0**-1070])
+def test_sites_too_close_for_floating_point_are_an_error_that_says_so(factor):
+    points = SETS["uniform"] * np.repeat([1, factor], 30)[:, None]
+    with pytest.raises(ValueError, match=r"at least 2\^-200 of the greatest .* method='insertion'"):
+        dt3d.Delaunay(points, machine=MACHINE)
+    validate(dt3d.Delaunay(points))
 
 
 @pytest.mark.parametrize("name", ["uniform", "lattice", "tenths"])

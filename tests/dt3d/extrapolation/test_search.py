@@ -186,7 +186,7 @@ def test_face_expansion(name, load):
     np.testing.assert_array_equal(answer.best.site.to_numpy(), want)
 
     corners = [sv.get(buckets.sites, v) for v in faces]
-    queries = MACHINE.map(open_exact_face, faces, *corners, True, False)
+    queries = MACHINE.map(open_exact_face, faces, *corners, False)
     bounded = search_faces(buckets, queries, corners, FILTERED).best
     decided = bounded.second.to_numpy() > bounded.high.to_numpy()
     assert decided.sum() >= np.count_nonzero(np.array(want) != NO_SITE) - 1
