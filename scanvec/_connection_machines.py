@@ -1,14 +1,11 @@
 """The Connection Machines, in seconds.
 
-Every elementary operation is an instruction that goes out to all processors, each of which loops over its
-virtual processors. The constants say where they come from:
+The constants say where they come from:
 
-* D. Culler and others, LogP: Towards a Realistic Model of Parallel Computation, PPoPP 1993: a CM-5 packet of
-  20 bytes, 16 of them data, costs its sender and its receiver 2 us each; and 4 us is what 20 bytes take at
-  the 5 MB/s that the fat tree has for each node beyond groups of 16 (C. E. Leiserson and others, The Network
-  Architecture of the Connection Machine CM-5, SPAA 1992; 20 MB/s within 4 nodes, 10 within 16).
-* CMMD 3.1 on the CM-5: a blocking message takes 80 us of software, a combining operation on the control
-  network 5 us for integers, 25 us for floats.
+* CMMD 3.1 on the CM-5: a message takes 80 us of software, and 8.7 MB/s point to point; a combining operation
+  on the control network 5 us for integers, 25 us for floats.
+* C. E. Leiserson and others, The Network Architecture of the Connection Machine CM-5, SPAA 1992: the fat tree
+  has 20 MB/s a node within 4 nodes, 10 within 16, and 5 beyond.
 * Y. A. Teng, F. Sullivan, I. Beichl, E. Puppo, Supercomputing '93, 112-121, Table 1: the times that
   "calibrated" refers to.
 * G. E. Blelloch, Scans as Primitive Parallel Operations, IEEE Transactions on Computers 38, 1989: a scan of
@@ -27,36 +24,29 @@ TABLE1 = "Teng et al. 1993, Table 1, random sets, 32 nodes; `dt3d experiment tab
 
 
 def _cm5(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
-    compute = entry.operations * (c["issue"] + entry.vp_ratio * c["element"])
     if entry.primitive == "map":
-        return compute
+        return c["issue"] + entry.operations * entry.vp_ratio * c["element"]
     if entry.primitive == "scan":
         across = c["combine"] if used_processors(entry) > 1 else 0.0
-        return entry.operations * (c["issue"] + local_scan(entry) * c["element"] + across)
-    packets = -(-entry.bytes // c["payload"])
-    if entry.primitive == "get":
-        packets = (1 + packets) / 2  # of a request and its reply, the request fits into one
-    return compute + entry.busiest * (c["message"] + packets * c["packet"])
+        return c["issue"] + entry.operations * (local_scan(entry) * c["element"] + across)
+    byte = c["byte_within_16"] if processors <= 16 else c["byte"]
+    return c["issue"] + entry.vp_ratio * c["element"] + entry.busiest * (c["message"] + entry.bytes * byte)
 
 
 CM5 = Model(
     "CM5",
-    "SPARC nodes without vector units; packets over a fat tree; a control network that scans. A step issues "
-    "its operations, loops over the busiest node's elements, and handles the busiest node's packets",
+    "SPARC nodes without vector units, a fat tree, a control network that scans. A step is issued to all "
+    "nodes, which loop over elements and operations; the busiest node's messages come on top",
     _cm5,
     {
-        "issue": Constant(5.39e-5, "s an operation", CALIBRATED, TABLE1),
-        "element": Constant(4.70e-6, "s an operation and element", CALIBRATED, TABLE1),
-        "packet": Constant(
-            4e-6, "s a packet", SOURCED, "Culler et al. 1993 (twice 2 us; 20 bytes at 5 MB/s)"
+        "issue": Constant(1.43e-4, "s a step", CALIBRATED, TABLE1),
+        "element": Constant(2.08e-6, "s an operation and element", CALIBRATED, TABLE1),
+        "message": Constant(8e-5, "s a message", SOURCED, "CMMD 3.1; C* may need less, see table2"),
+        "byte": Constant(1 / 5e6, "s a byte", SOURCED, "Leiserson et al. 1992: 5 MB/s beyond 16 nodes"),
+        "byte_within_16": Constant(
+            1 / 8.7e6, "s a byte", SOURCED, "CMMD 3.1: 8.7 MB/s, less than the tree has"
         ),
-        "payload": Constant(16, "bytes a packet", SOURCED, "Culler et al. 1993"),
-        "message": Constant(
-            0.0, "s a message", ESTIMATE, "software beyond its packets: 0 at least, 8e-5 in CMMD"
-        ),
-        "combine": Constant(
-            5e-6, "s a scan", SOURCED, "CMMD 3.1: an integer combined by the control network"
-        ),
+        "combine": Constant(5e-6, "s a scan", SOURCED, "CMMD 3.1: an integer over the control network"),
     },
 )
 

@@ -98,6 +98,12 @@ class Ledger:
         """
         return Ledger(self.entries, self.processors, check_model(model), self.handled)
 
+    def of(self, *phases: str) -> Ledger:
+        """The part of the ledger that these phases made."""
+        entries = [e for e in self.entries if e.phase in phases]
+        handled = {phase: load for phase, load in self.handled.items() if phase in phases}
+        return Ledger(entries, self.processors, self.model, handled)
+
     def record(
         self,
         primitive: str,

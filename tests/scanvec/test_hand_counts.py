@@ -131,8 +131,8 @@ def test_seconds_of_a_cm5():
     cm = sv.Simulated(4, model=sv.CM5)
     count_letters(cm)
     c = sv.CM5.values
-    # two steps of two elements a node; 4 messages of one packet, and 5 of one packet each way
-    expected = 2 * (c["issue"] + 2 * c["element"]) + (4 + 5) * (c["packet"] + c["message"])
+    # two steps of two elements a node; 4 messages of four bytes, and 5
+    expected = 2 * (c["issue"] + 2 * c["element"]) + (4 + 5) * (c["message"] + 4 * c["byte_within_16"])
     assert cm.ledger.seconds == pytest.approx(expected)
 
 

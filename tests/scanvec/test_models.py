@@ -168,7 +168,7 @@ def test_calibration_finds_the_constants_that_made_the_times():
     )
     assert found.values == pytest.approx(truth.values)
     assert found.constants["issue"].origin == "calibrated"
-    assert found.constants["packet"].origin == "sourced"
+    assert found.constants["byte"].origin == "sourced"
     with pytest.raises(ValueError, match="4 ledgers, 1 times"):
         sv.calibrate(sv.CM5, ledgers, [1.0], ["issue"], "test")
     with pytest.raises(ValueError, match="no constant 'weight'"):
