@@ -23,11 +23,11 @@ from .runs import SEED, points_of
 if TYPE_CHECKING:
     from rich.console import Console
 
-# The paper does not say how large its perturbation is. For double precision dt3d takes one that rounds away in
-# single precision; for single precision it takes a larger one. Both are tried.
+# The paper does not say how large its perturbation is. For double precision dt3d takes one that rounds away
+# in single precision; for single precision it takes a larger one. Both are tried.
 SAME, LARGER = "single", "single, larger perturbation"
 MODES: dict[str, dict[str, Any]] = {
-    SAME: {},  # see `attempt_with_the_perturbation_of_double`
+    SAME: {},  # see `_with_the_perturbation_of_double`
     LARGER: {"robustness": "perturb", "dtype": "float32"},
     "double": {"robustness": "perturb", "dtype": "float64"},
     "exact": {"robustness": "exact"},
@@ -111,7 +111,7 @@ def table3(
         "The paper's double precision met no inconsistency; it has no exact mode. Its random sets are not "
         "published, nor its other sets (torus, spiral, bust, ...). Nor does it say how far it moves sites. "
         f"Moved by {_power(np.float64)} as in double precision, where coordinates round to 2^-24, ties stay "
-        f"undecided; {_power(np.float32)}, dt3d's own choice for single precision, is the larger perturbation."
+        f"undecided; {_power(np.float32)}, dt3d's choice for single precision, is the larger perturbation."
     )
     write_csv(
         out / "table3.csv",
@@ -135,13 +135,15 @@ def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcom
     figure, (ax,) = panels(1, 6.0)
     for k, (name, by_mode) in enumerate(outcomes.items()):
         ax.plot([k] * len(others[name]), [o.inconsistencies for o in others[name]], ".", color="0.6")
-        for mode, colour in zip(MODES, ("tab:blue", "tab:cyan", "tab:green", "black"), strict=True):
+        for shift, (mode, colour) in enumerate(
+            zip(MODES, ("tab:blue", "tab:cyan", "tab:green", "black"), strict=True)
+        ):
             one = by_mode[mode]
             marker = "o" if one.finished else "x"
-            ax.plot(k, one.inconsistencies, marker, color=colour, label=mode if not k else None)
+            ax.plot(k + shift / 10, one.inconsistencies, marker, color=colour, label=mode if not k else None)
         if isinstance(TABLE3[name], int):
-            ax.plot(k, TABLE3[name], "s", color="tab:orange", label=None if k else "single, paper")
+            ax.plot(k - 0.1, TABLE3[name], "s", color="tab:orange", label=None if k else "single, paper")
     ax.set_xticks(range(len(outcomes)), list(outcomes))
-    ax.set(ylabel="inconsistencies (x: given up)", yscale="symlog")
+    ax.set(ylabel="inconsistencies (x: given up)", yscale="symlog", ylim=(-0.5, 1000))
     ax.legend(fontsize=8)
     figure.savefig(path, dpi=120)
