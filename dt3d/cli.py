@@ -234,6 +234,7 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
         msg = f"there is no experiment {name!r}; there are {', '.join(EXPERIMENTS)}"
         raise ValueError(msg)
     run: Any = EXPERIMENTS[name]
+    options = {key.replace("-", "_"): value for key, value in options.items()}
     try:
         inspect.signature(run).bind(out, console, **options)
     except TypeError:

@@ -15,16 +15,24 @@ and keep a ledger of every step; `Device` runs the same programs on whole vector
 G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 """
 
-# machines and vectors
+# cost models, and their calibration
+from ._calibration import calibrate
+from ._connection_machines import CM2, CM5
+
+# machines, vectors and ledgers
 from ._device import Device
-from ._ledger import Entry, Ledger, Row
+from ._entry import Conflict, Entry, Row
+from ._ledger import Ledger
 from ._machine import Machine
+from ._model import Constant, Model
 
 # operators
 from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
 
 # movement
 from ._move import append, distribute, get, pack, pack_index, permute, send, split
+from ._networks import Hypercube, Mesh2D
+from ._pram import CRCW_PRAM, EREW_PRAM, SCAN
 
 # scans and reductions
 from ._scan import (
@@ -37,7 +45,7 @@ from ._scan import (
     scan_inclusive,
 )
 from ._segments import Segments
-from ._simulated import Simulated
+from ._simulated import ConcurrentAccessError, Simulated
 
 # sorting and sets
 from ._sort import rank, segmented_sort, sort, union, unique
@@ -45,8 +53,10 @@ from ._vector import Vector
 
 __all__ = [
     "ADD", "AND", "ARGMIN", "COPY", "MAX", "MIN", "MUL", "OR",
-    "Device", "Entry", "Ledger", "Machine", "Monoid", "Row", "Segments", "Simulated", "Vector",
-    "append", "backscan", "backscan_inclusive", "copy_scan", "distribute", "enumerate", "get", "pack",
-    "pack_index", "permute", "rank", "reduce", "scan", "scan_inclusive", "segmented_sort", "send", "sort",
-    "split", "union", "unique",
+    "CM2", "CM5", "CRCW_PRAM", "EREW_PRAM", "Hypercube", "Mesh2D", "SCAN",
+    "ConcurrentAccessError", "Conflict", "Constant", "Device", "Entry", "Ledger", "Machine", "Model",
+    "Monoid", "Row", "Segments", "Simulated", "Vector",
+    "append", "backscan", "backscan_inclusive", "calibrate", "copy_scan", "distribute", "enumerate", "get",
+    "pack", "pack_index", "permute", "rank", "reduce", "scan", "scan_inclusive", "segmented_sort", "send",
+    "sort", "split", "union", "unique",
 ]  # fmt: skip

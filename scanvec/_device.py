@@ -51,8 +51,8 @@ class Device(Machine):
     def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any:
         return _scan(op, exclusive, backward, record, heads, np.int32(n))
 
-    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any]:
-        return _route(index, where, np.int32(n))
+    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any, None]:
+        return *_route(index, where, np.int32(n)), None
 
 
 @partial(jax.jit, static_argnums=0)

@@ -153,11 +153,17 @@ def _scatter(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) 
     return _scatter_bits(op, into, target, values)
 
 
+@partial(jax.jit, static_argnums=0)
+def most_accesses(size: int, place: jax.Array) -> jax.Array:
+    """How often the place that is named most, of ``size`` flat ones, is named."""
+    count = jnp.zeros(size, jnp.int32).at[place.reshape(-1)].add(1, mode="drop")
+    return jnp.max(count)
+
+
 @jax.jit
 def most_hits(into: jax.Array, place: jax.Array) -> jax.Array:
     """How many elements go to the place of ``into`` that is wanted most."""
-    count = jnp.zeros(into.size, jnp.int32).at[place.reshape(-1)].add(1, mode="drop")
-    return jnp.max(count)
+    return most_accesses(into.size, place)
 
 
 def _scatter_bits(op: Monoid, into: jax.Array, target: jax.Array, values: jax.Array) -> jax.Array:

@@ -217,8 +217,8 @@ class Machine(abc.ABC):
             raise TypeError(msg)
         n, m = len(index), len(vectors[0])
         with jax.enable_x64(True):
-            place, loads = self._routed("get", index, where, n, m)
-            self._charge("get", n, loads, vectors)
+            place, loads, handled = self._routed("get", index, where, n, m)
+            self._charge("get", n, loads, handled, vectors)
             out = jax.tree.map(lambda v: _local.take(v._block, place, otherwise), record, is_leaf=is_vector)
             return self._wrap(out, n)
 
@@ -263,10 +263,10 @@ class Machine(abc.ABC):
             op.check(v.dtype, "send")
         n, m = len(vectors[0]), len(places[0])
         with jax.enable_x64(True):
-            place, loads = self._routed("send", index, where, n, m)
+            place, loads, handled = self._routed("send", index, where, n, m)
             if op is _local.UNIQUE:
                 check_distinct(index, where, place, places[0]._block)
-            self._charge("send", max(n, m), loads, vectors)
+            self._charge("send", max(n, m), loads, handled, vectors)
             out = jax.tree.map(
                 lambda r, v: _local.put(op, r._block, place, v._block), into, record, is_leaf=is_vector
             )
@@ -274,13 +274,13 @@ class Machine(abc.ABC):
 
     def _routed(
         self, what: str, index: Vector, where: Vector | None, n: int, m: int
-    ) -> tuple[jax.Array, list[int]]:
+    ) -> tuple[jax.Array, list[int], Any]:
         """The flat places that n indices name among m elements, checked; and the messages it takes."""
-        place, facts = self._route(what, index._block, blocks_of(where), n, m)
+        place, facts, handled = self._route(what, index._block, blocks_of(where), n, m)
         least, greatest, *loads = np.asarray(facts).tolist()
         if least < 0 or greatest >= m:
             out_of_range(what, least, greatest, m)
-        return place, loads
+        return place, loads, handled
 
     def _wrap(self, blocks: Any, n: int) -> Any:
         return jax.tree.map(lambda b: Vector(self, b, n), blocks)
@@ -294,15 +294,18 @@ class Machine(abc.ABC):
     @abc.abstractmethod
     def _route(
         self, what: str, index: jax.Array, where: jax.Array | None, n: int, m: int
-    ) -> tuple[jax.Array, jax.Array]:
-        """Flat place in a block of m elements for each of n indices, and facts: least, greatest, loads.
+    ) -> tuple[jax.Array, jax.Array, Any]:
+        """Flat place in a block of m elements for each of n indices; facts: least, greatest, loads; and the
+        messages that each processor handles, on machines that count them.
 
         An element outside the context gets a place beyond every block, `_local.NOWHERE`.
         """
 
     # the ledger; nothing happens on machines that keep none
 
-    def _charge(self, primitive: str, n: int, loads: list[int], vectors: list[Vector]) -> None:
+    def _charge(
+        self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]
+    ) -> None:
         """Enter a step that moved elements between processors."""
 
     @contextmanager

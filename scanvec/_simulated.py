@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
@@ -12,9 +12,12 @@ import numpy as np
 
 from . import _local
 from ._checks import check_size
+from ._entry import Conflict
 from ._ledger import Ledger
 from ._machine import SMALLEST_BLOCK, Machine, round_up
+from ._model import Model, check_model
 from ._monoid import ONE_SIDED, Monoid
+from ._operations import count_operations
 from ._vector import Vector
 
 
@@ -29,31 +32,59 @@ class Simulated(Machine):
     ----------
     processors : int
         P, at least 1.
+    model : Model, optional
+        Predicts the time of what runs, as ``ledger.seconds``: `EREW_PRAM`, `CRCW_PRAM`, `SCAN`, `CM2`, `CM5`,
+        `Hypercube`, `Mesh2D`, or your own.
+    also : iterable of int, optional
+        Further numbers of processors, for which the loads of the same steps are counted, each in a ledger of
+        its own. A program whose course does not depend on P, as results never do, need not run again for
+        each P.
+    on_conflict : "report" or "raise"
+        What a concurrent read or write does under a model with exclusive access (`EREW_PRAM`): it is listed
+        in ``ledger.conflicts``, or raises `ConcurrentAccessError` and is not entered.
 
     Attributes
     ----------
     ledger : Ledger
         Every step so far.
+    ledgers : dict of int to Ledger
+        The same, and those of ``also``, by number of processors.
 
     Raises
     ------
     ValueError
-        If ``processors`` is not a positive integer.
+        If a number of processors is not a positive integer, ``model`` is no model, or ``on_conflict``
+        unknown.
     """
 
-    def __init__(self, processors: int) -> None:
-        if isinstance(processors, bool) or int(processors) != processors or processors < 1:
-            msg = f"processors must be a positive integer, got {processors!r}"
+    def __init__(
+        self,
+        processors: int,
+        model: Model | None = None,
+        *,
+        also: Iterable[int] = (),
+        on_conflict: str = "report",
+    ) -> None:
+        self.processors = _check_processors(processors)
+        self.model = check_model(model)
+        if on_conflict not in ("report", "raise"):
+            msg = f"on_conflict must be 'report' or 'raise', got {on_conflict!r}"
             raise ValueError(msg)
-        self.processors = int(processors)
-        self.ledger = Ledger()
+        self.on_conflict = on_conflict
+        every = dict.fromkeys([self.processors, *map(_check_processors, also)])
+        self.ledgers = {p: Ledger(processors=p, model=model) for p in every}
+        self.ledger = self.ledgers[self.processors]
+        self._others = tuple(p for p in every if p != self.processors)
+        for p in self._others:  # names are entered once, for all
+            self.ledgers[p].share_names(self.ledger)
 
     def __repr__(self) -> str:
-        return f"Simulated(processors={self.processors})"
+        model = "" if self.model is None else f", model={self.model!r}"
+        return f"Simulated(processors={self.processors}{model})"
 
     def vp_ratio(self, n: int) -> int:
         """Virtual processors a processor for vectors of length n: ceil(n / P), at least 1."""
-        return max(1, -(-n // self.processors))
+        return _vp_ratio(n, self.processors)
 
     def _shape(self, n: int) -> tuple[int, int]:
         # A row is longer than the VP ratio: rounded up, so that few shapes are compiled.
@@ -75,7 +106,7 @@ class Simulated(Machine):
 
     def iota(self, n: int) -> Vector:
         check_size(n)
-        self._enter("map", n)
+        self._enter("map", n, 0)
         with jax.enable_x64(True):
             return Vector(self, _iota(self._shape(n), np.int32(self.vp_ratio(n))), n)
 
@@ -85,30 +116,79 @@ class Simulated(Machine):
 
     def _map(self, fn: Callable, args: Any, where: Any, otherwise: Any, n: int) -> Any:
         out = _local.map_elements(fn, args, where, otherwise)
-        self._enter("map", n)
+        self._enter("map", n, 0, count_operations(fn, args, where is not None))
         return out
 
     def _scan(self, op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, n: int) -> Any:
-        # every processor that holds elements, but the last, passes one partial result on
-        messages = max(-(-n // self.vp_ratio(n)) - 1, 0)
-        size = sum(x.dtype.itemsize for x in jax.tree.leaves(record))
         vp = self.vp_ratio(n)
         out = _scan(op, exclusive, backward, record, heads, np.int32(n), np.int32(vp))
-        self.ledger.record("scan", n, vp, messages, min(messages, 1), size)
+        leaves = jax.tree.leaves(record)
+        self._enter("scan", n, sum(x.dtype.itemsize for x in leaves), len(leaves))
         return out
 
-    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any]:
+    def _route(self, what: str, index: Any, where: Any, n: int, m: int) -> tuple[Any, Any, Any]:
         row = np.int32(self._shape(m)[1])
         vps = np.int32(self.vp_ratio(n)), np.int32(self.vp_ratio(m))
-        return _route(what == "get", index, where, np.int32(n), np.int32(m), row, *vps)
+        replies, exclusive = what == "get", self.model is not None and self.model.exclusive
+        place, facts, handled = _route(replies, index, where, np.int32(n), np.int32(m), row, *vps)
+        if exclusive:
+            size = self._shape(m)
+            facts = jnp.append(facts, _local.most_accesses(size[0] * size[1], place))
+        else:
+            facts = jnp.append(facts, 0)
+        if self._others:
+            sizes = [np.array([_vp_ratio(k, p) for p in self._others], np.int32) for k in (n, m)]
+            others = _loads(replies, self._others, index, where, np.int32(n), vps[0], *sizes)
+            facts = jnp.append(facts, others)
+        return place, facts, handled
 
-    def _charge(self, primitive: str, n: int, loads: list[int], vectors: list[Vector]) -> None:
-        messages, busiest = loads
+    def _charge(
+        self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]
+    ) -> None:
+        messages, busiest, accesses, *others = loads
+        if self.on_conflict == "raise" and accesses > 1:
+            phase, operation = self.ledger.names(primitive)
+            conflict = Conflict(phase, operation, primitive, self.ledger.steps, accesses)
+            raise ConcurrentAccessError(conflict, self.model)
         size = sum(v.dtype.itemsize for v in vectors)
-        self.ledger.record(primitive, n, self.vp_ratio(n), messages, busiest, size)
+        self.ledger.add_handled(np.asarray(handled))
+        pairs = [(messages, busiest), *zip(others[::2], others[1::2], strict=True)]
+        for p, (crossed, most) in zip([self.processors, *self._others], pairs, strict=True):
+            self.ledgers[p].record(primitive, n, _vp_ratio(n, p), crossed, most, size, accesses=accesses)
 
-    def _enter(self, primitive: str, n: int) -> None:
-        self.ledger.record(primitive, n, self.vp_ratio(n), 0, 0, 0)
+    def _enter(self, primitive: str, n: int, size: int, operations: int = 1) -> None:
+        """Enter a map, or a scan: every processor with elements but the last passes a partial result on."""
+        for p, ledger in self.ledgers.items():
+            vp = _vp_ratio(n, p)
+            messages = max(-(-n // vp) - 1, 0) if primitive == "scan" else 0
+            ledger.record(primitive, n, vp, messages, min(messages, 1), size, operations)
+
+
+class ConcurrentAccessError(ValueError):
+    """A concurrent read or write on a machine with exclusive access.
+
+    Attributes
+    ----------
+    conflict : Conflict
+    """
+
+    def __init__(self, conflict: Conflict, model: Model | None) -> None:
+        super().__init__(
+            f"{conflict}; {model!r} allows exclusive access only. Use indices that are distinct, a copy-scan "
+            f"instead of a concurrent read, a reduction instead of a write; or on_conflict='report'"
+        )
+        self.conflict = conflict
+
+
+def _check_processors(processors: Any) -> int:
+    if isinstance(processors, bool) or int(processors) != processors or processors < 1:
+        msg = f"processors must be a positive integer, got {processors!r}"
+        raise ValueError(msg)
+    return int(processors)
+
+
+def _vp_ratio(n: int, processors: int) -> int:
+    return max(1, -(-n // processors))
 
 
 # The kernels. Arrays are (P, row); row >= vp, the VP ratio; element i is at [i // vp, i % vp].
@@ -175,7 +255,7 @@ def _scan(op: Monoid, exclusive: bool, backward: bool, record: Any, heads: Any, 
 @partial(jax.jit, static_argnums=0)
 def _route(
     replies: bool, index: Any, where: Any, n: Any, m: Any, row: Any, vp_n: Any, vp_m: Any
-) -> tuple[Any, Any]:
+) -> tuple[Any, Any, Any]:
     """Where n indices lead in a vector of m elements whose blocks have rows of ``row``."""
     processors = index.shape[0]
     active = _valid(index.shape, n, vp_n)
@@ -190,8 +270,37 @@ def _route(
     sent = jnp.sum(remote, 1)
     to = jnp.where(remote, owner, processors).reshape(-1)
     received = jnp.zeros(processors, sent.dtype).at[to].add(1, mode="drop")
-    if replies:
-        loads = [2 * jnp.sum(sent), jnp.max(sent + received)]
+    if replies:  # a request goes out for each reply that comes in, and the other way round
+        handled = sent + received
+        loads = [2 * jnp.sum(sent), jnp.max(handled)]
     else:
-        loads = [jnp.sum(sent), jnp.maximum(jnp.max(sent), jnp.max(received))]
-    return place, jnp.stack([x.astype(jnp.int64) for x in [least, greatest, *loads]])
+        handled = jnp.maximum(sent, received)
+        loads = [jnp.sum(sent), jnp.max(handled)]
+    return place, jnp.stack([x.astype(jnp.int64) for x in [least, greatest, *loads]]), handled
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def _loads(
+    replies: bool, machines: tuple[int, ...], index: Any, where: Any, n: Any, vp: Any, vps_n: Any, vps_m: Any
+) -> jax.Array:
+    """Messages in all, and of the busiest processor, on machines of other numbers of processors: int64 (2k,).
+
+    The block is laid out with ``vp`` elements a row; ``vps_n`` and ``vps_m`` are the VP ratios on the others.
+    """
+    active = _valid(index.shape, n, vp)
+    if where is not None:
+        active &= where
+    element = _indices(index.shape, vp)
+    out = []
+    for k, p in enumerate(machines):
+        owner, asker = (index // vps_m[k]).astype(jnp.int32), element // vps_n[k]
+        remote = active & (owner != asker)
+        none = jnp.zeros(p, jnp.int32)
+        sent = none.at[jnp.where(remote, asker, p).reshape(-1)].add(1, mode="drop")
+        received = none.at[jnp.where(remote, owner, p).reshape(-1)].add(1, mode="drop")
+        total = jnp.sum(remote, dtype=jnp.int64)
+        if replies:
+            out += [2 * total, jnp.max(sent + received)]
+        else:
+            out += [total, jnp.maximum(jnp.max(sent), jnp.max(received))]
+    return jnp.stack([x.astype(jnp.int64) for x in out])

@@ -10,6 +10,8 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 # The words after each example's name, and the files that it then writes into the current folder.
 RUNS = {
     "scan_primitives.py": [([], [])],
+    "write_your_own_algorithm.py": [([], [])],
+    "cm5_scaling.py": [(["--sites", "60", "--folder", "."], ["cm5_scaling.png"])],
     "first_triangulation.py": [
         (["60"], []),
         (["60", "--write", "sites.vtu"], ["sites.vtu"]),

@@ -1,4 +1,4 @@
-"""Point sets of Teng et al. 1993, Table 1, as far as they can be made again."""
+"""Point sets of Teng et al. 1993, Table 1, as far as they can be made again; and one of clusters."""
 
 from __future__ import annotations
 
@@ -27,3 +27,10 @@ def dodecahedron() -> np.ndarray:
     for s, t in itertools.product((-1, 1), repeat=2):
         vertices += [(0, s / phi, t * phi), (s / phi, t * phi, 0), (s * phi, 0, t / phi)]
     return np.array(vertices, float)
+
+
+def clusters(n: int, seed: int = 0, *, count: int = 20, spread: float = 0.01) -> np.ndarray:
+    """n sites in ``count`` normal clusters of that standard deviation in the unit cube, float64 (n, 3)."""
+    rng = np.random.default_rng([seed, n])
+    centres = rng.random((count, 3))
+    return centres[rng.integers(0, count, n)] + spread * rng.standard_normal((n, 3))

@@ -7,7 +7,8 @@ import pytest
 from rich.console import Console
 
 from dt3d.experiments import EXPERIMENTS, sets
-from dt3d.experiments.table1 import PAPER, rows
+from dt3d.experiments.paper import TABLE1
+from dt3d.experiments.table1 import rows
 
 
 def test_small_rows_agree_with_the_paper(tmp_path):
@@ -56,4 +57,4 @@ def test_the_sets():
     np.testing.assert_allclose(np.linalg.norm(solid, axis=1), 3**0.5, rtol=1e-15)
     np.testing.assert_allclose(distances[:, 1:4], distances[0, 1], rtol=1e-14)  # three edges a vertex
     assert (distances[:, 4] > 1.5 * distances[0, 1]).all()
-    assert [p.sites for p in PAPER[:8]] == [125 * 2**k for k in range(8)]
+    assert [p.sites for p in TABLE1[:8]] == [125 * 2**k for k in range(8)]

@@ -1,0 +1,44 @@
+"""What every experiment writes: a CSV, and a picture without a screen."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import scanvec as sv
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows(rows)
+
+
+def panels(count: int, width: float = 5.0) -> tuple[Any, list[Any]]:
+    """A figure, and axes side by side."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width * count, 3.8), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+
+
+def print_model(console: Console, model: sv.Model) -> None:
+    """A model's constants and where each is from."""
+    console.print(str(model), markup=False, soft_wrap=True)
+
+
+def wrote(console: Console, out: Path, name: str) -> None:
+    console.print(f"wrote {out / name}.csv and {out / name}.png", markup=False)
+
+
+def off(value: float, paper: float) -> float:
+    """Relative deviation from the paper's value."""
+    return value / paper - 1

@@ -1,0 +1,168 @@
+"""Figure 2 of Teng et al. 1993: time against n, with bucketing and by brute force, and where they cross."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+
+import scanvec as sv
+
+from .._stats import Statistics
+from .._topology import OUTWARD
+from ..delaunay import Delaunay
+from ..extrapolation import normalise
+from ..extrapolation.points import Point
+from ..extrapolation.signed_distance import frame, signed_distance
+from . import calibration
+from ._output import panels, print_model, write_csv, wrote
+from .paper import BREAK_EVEN, PROCESSORS, RANDOM
+from .runs import MAIN_LOOP, SEED, cm5, points_of
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+MOST_BY_BRUTE_FORCE = 2000  # sites; its time grows with their square
+
+
+class Nearest(NamedTuple):
+    """The best site so far of a face."""
+
+    distance: Any
+    site: Any
+
+
+def _examine(face: Any, best: Nearest, site: Point, k: Any) -> Nearest:
+    distance = signed_distance(face, site)
+    better = distance < best.distance
+    return Nearest(jnp.where(better, distance, best.distance), jnp.where(better, k, best.site))
+
+
+def exhaustive(machine: sv.Machine, sites: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The fourth vertex of each face by trying every site: int32 (m,), -1 where no site is above.
+
+    Without cells, requests and warrants: each processor keeps its own faces, and the sites come one after the
+    other to all of them.
+
+    Parameters
+    ----------
+    sites : float64 (n, 3)
+    faces : int (m, 3)
+        Oriented with the normal (b-a) x (c-a) towards the side that is searched.
+    """
+    a, b, c = (Point(*(machine.vector(x) for x in sites[faces[:, k]].T)) for k in range(3))
+    frames = machine.map(frame, a, b, c)
+    best = Nearest(machine.full(len(faces), np.inf, np.float64), machine.full(len(faces), -1, np.int32))
+    for k, site in enumerate(sites):
+        best = machine.map(_examine, frames, best, Point(*site), np.int32(k))
+    return best.site.to_numpy()
+
+
+@dataclass(frozen=True)
+class Size:
+    """One size of random sets: the main loop's ledgers with cells and, up to some size, without."""
+
+    sites: int
+    paper: float
+    bucketing: sv.Ledger
+    brute_force: sv.Ledger | None
+
+
+def run(n: int, seed: int = SEED, *, brute_force: bool = True) -> Size:
+    """Triangulate, and search all faces of every iteration again by brute force."""
+    points = points_of(f"rand.{n}", seed)
+    machine, left = cm5(), []
+    tri = Delaunay(
+        points, robustness="perturb", machine=machine, callback=lambda p: left.append(p.open_faces)
+    )
+    assert isinstance(tri.stats, Statistics)
+    paper = next(row.seconds for row in RANDOM if row.sites == n)
+    loop = machine.ledger.of(*MAIN_LOOP)
+    if not brute_force:
+        return Size(n, paper, loop, None)
+    slow = cm5()
+    later = left[:-1]
+    # which faces an iteration opens does not matter to the loads, their number does
+    every = tri.simplices[:, OUTWARD[:, ::-1]].reshape(-1, 3)
+    opposite = tri.simplices.reshape(-1)
+    for count in [tri.stats.face_expansions - sum(later), *later]:
+        chosen = np.arange(count) % len(every)
+        with slow.phase("face expansion"):
+            found = exhaustive(slow, normalise(points), every[chosen])
+        assert np.array_equal(found, opposite[chosen])  # both searches answer alike
+    # what happens to new tetrahedra is the same
+    slow.ledger.entries += machine.ledger.of("dead faces").entries
+    return Size(n, paper, loop, slow.ledger)
+
+
+def break_even(sizes: list[Size], model: sv.Model) -> float | None:
+    """Sites at which both take equally long, by interpolation of the logarithms; None without a crossing."""
+    both = [s for s in sizes if s.brute_force is not None]
+    n = np.log([s.sites for s in both])
+    gain = np.array([_ratio(s, model) for s in both])
+    crossing = np.flatnonzero((gain[:-1] <= 0) & (gain[1:] > 0))
+    if not len(crossing):
+        return None
+    k = crossing[0]
+    return float(np.exp(n[k] + (n[k + 1] - n[k]) * -gain[k] / (gain[k + 1] - gain[k])))
+
+
+def _ratio(size: Size, model: sv.Model) -> float:
+    assert size.brute_force is not None
+    return np.log(size.brute_force.under(model).seconds / size.bucketing.under(model).seconds)
+
+
+def figure2(
+    out: Path, console: Console, *, most_sites: int = 16000, seed: int = SEED
+) -> tuple[list[Size], float | None]:
+    """The paper's Figure 2: seconds against n with bucketing and by brute force, and their break-even.
+
+    Predicted by the CM-5 model, calibrated to the paper's times with bucketing. Writes ``figure2.csv`` and
+    ``figure2.png`` into ``out``.
+    """
+    from rich.table import Table
+
+    out.mkdir(parents=True, exist_ok=True)
+    sizes = []
+    with console.status("...") as status:
+        for row in RANDOM:
+            if row.sites <= most_sites:
+                status.update(f"{row.name} ...")
+                sizes.append(run(row.sites, seed, brute_force=row.sites <= MOST_BY_BRUTE_FORCE))
+    model = calibration.calibrated({f"rand.{s.sites}": s.bucketing for s in sizes})
+    table = Table(title=f"Teng et al. 1993, Figure 2: seconds on a CM-5 of {PROCESSORS} nodes")
+    for column in ("sites", "bucketing, paper", "bucketing, model", "brute force, model"):
+        table.add_column(column, justify="right")
+    lines: list[list[Any]] = []
+    for s in sizes:
+        brute = None if s.brute_force is None else s.brute_force.under(model).seconds
+        lines.append([s.sites, s.paper, s.bucketing.under(model).seconds, "" if brute is None else brute])
+        table.add_row(*(f"{x:.2f}" if isinstance(x, float) else str(x) for x in lines[-1]))
+    console.print(table)
+    print_model(console, model)
+    crossing = break_even(sizes, model)
+    text = "does not lie in this range" if crossing is None else f"is at {crossing:.0f} sites"
+    console.print(f"The break-even {text}; paper: about {BREAK_EVEN}.")
+    write_csv(out / "figure2.csv", ["sites", "paper_seconds", "model_seconds", "brute_force_seconds"], lines)
+    _draw(lines, crossing, out / "figure2.png")
+    wrote(console, out, "figure2")
+    return sizes, crossing
+
+
+def _draw(lines: list[list[Any]], crossing: float | None, path: Path) -> None:
+    figure, (ax,) = panels(1, 6.0)
+    n = [line[0] for line in lines]
+    ax.loglog(n, [line[1] for line in lines], "s--", label="bucketing, paper")
+    ax.loglog(n, [line[2] for line in lines], "o-", label="bucketing, model")
+    slow = [line for line in lines if line[3] != ""]
+    ax.loglog([line[0] for line in slow], [line[3] for line in slow], "^-", label="brute force, model")
+    ax.loglog(n, [lines[0][1] * k / n[0] for k in n], ":", color="0.6", label="O(n)")
+    ax.axvline(BREAK_EVEN, color="0.8", label="break-even, paper (about)")
+    if crossing is not None:
+        ax.axvline(crossing, color="0.4", linestyle="--", label="break-even, model")
+    ax.set(xlabel="sites", ylabel="seconds")
+    ax.legend(fontsize=8)
+    figure.savefig(path, dpi=120)

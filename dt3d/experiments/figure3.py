@@ -1,0 +1,74 @@
+"""Figure 3 of Teng et al. 1993: tetrahedra found in each iteration, for random sets."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import scanvec as sv
+
+from ._output import panels, write_csv, wrote
+from .paper import MOST_BY_ITERATION, RANDOM
+from .runs import SEED, Measured, measure, points_of
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int = SEED) -> dict[str, Measured]:
+    """The paper's Figure 3: tetrahedra by the iteration that finds them; most are found by the fourth.
+
+    Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv`` and
+    ``figure3.png`` into ``out``.
+    """
+    from rich.table import Table
+
+    out.mkdir(parents=True, exist_ok=True)
+    found: dict[str, Measured] = {}
+    with console.status("...") as status:
+        for row in RANDOM:
+            if row.sites <= most_sites:
+                status.update(f"{row.name} ...")
+                found[row.name] = measure(points_of(row.name, seed), sv.Device())
+    table = Table(title="Teng et al. 1993, Figure 3: tetrahedra found in each iteration (ours)")
+    longest = max(len(m.per_iteration) for m in found.values())
+    by_the_fourth = f"by the {MOST_BY_ITERATION}th"
+    for column in ("set", *map(str, range(1, longest + 1)), by_the_fourth, "depth: paper / ours"):
+        table.add_column(column, justify="left" if column == "set" else "right")
+    for row in RANDOM:
+        if row.name in found:
+            m = found[row.name]
+            cells = [*map(str, m.per_iteration), *[""] * (longest - len(m.per_iteration))]
+            share = _share(m, MOST_BY_ITERATION)
+            table.add_row(row.name, *cells, f"{100 * share:.1f} %", f"{row.depth} / {m.depth}")
+    console.print(table)
+    least = min(_share(m, MOST_BY_ITERATION) for m in found.values())
+    console.print(
+        f"By iteration {MOST_BY_ITERATION} at least {100 * least:.1f} % are found; paper: most. The last "
+        "iteration may find the hull only."
+    )
+    write_csv(
+        out / "figure3.csv",
+        ["set", "iteration", "tetrahedra", "tetrahedra_so_far"],
+        [
+            (name, k, new, total)
+            for name, m in found.items()
+            for k, (new, total) in enumerate(
+                zip(m.per_iteration, accumulate(m.per_iteration), strict=True), 1
+            )
+        ],
+    )
+    figure, (ax,) = panels(1, 6.0)
+    for name, m in found.items():
+        some = [(k, new) for k, new in enumerate(m.per_iteration, 1) if new]
+        ax.semilogy(*zip(*some, strict=True), "o-", label=name)
+    ax.set(xlabel="iteration", ylabel="tetrahedra found")
+    ax.legend(fontsize=8)
+    figure.savefig(out / "figure3.png", dpi=120)
+    wrote(console, out, "figure3")
+    return found
+
+
+def _share(m: Measured, iteration: int) -> float:
+    return sum(m.per_iteration[:iteration]) / m.tetrahedra

@@ -1,0 +1,85 @@
+"""One run on every machine model, from 2^4 to 2^20 processors: not in the paper.
+
+The tetrahedra and the steps do not depend on the number of processors, so one run counts the loads of all of
+them: what crosses between processors is counted anew for each number, from the same indices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import scanvec as sv
+
+from ._output import panels, print_model, write_csv, wrote
+from .runs import SEED, measure, points_of
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.Hypercube, sv.Mesh2D, sv.CM2, sv.CM5)
+PROCESSORS = tuple(2**k for k in range(4, 21, 2))
+
+
+def run(n: int, processors: Sequence[int] = PROCESSORS, seed: int = SEED) -> dict[int, sv.Ledger]:
+    """The main loop's ledgers for n random sites by number of processors, accesses counted."""
+    first, *others = processors
+    machine = sv.Simulated(first, model=sv.EREW_PRAM, also=others)
+    return measure(points_of(f"rand.{n}", seed), machine).ledgers
+
+
+def machines(out: Path, console: Console, *, sites: int = 2000, seed: int = SEED) -> dict[int, sv.Ledger]:
+    """The same run on all models, from 2^4 to 2^20 processors: predicted seconds of the main loop.
+
+    Writes ``machines.csv`` and ``machines.png`` into ``out``.
+    """
+    from rich.table import Table
+
+    out.mkdir(parents=True, exist_ok=True)
+    with console.status(f"{sites} sites, loads of {len(PROCESSORS)} machines ..."):
+        ledgers = run(sites, seed=seed)
+    seconds = {m.name: {p: ledger.under(m).seconds for p, ledger in ledgers.items()} for m in MODELS}
+    table = Table(title=f"Seconds of the main loop for {sites} random sites, by processors")
+    for column in ("processors", *seconds):
+        table.add_column(column, justify="right")
+    for p in ledgers:
+        table.add_row(f"{p:,}", *(f"{by[p]:.4g}" for by in seconds.values()))
+    console.print(table)
+    conflicts = len(next(iter(ledgers.values())).conflicts)
+    steps = next(iter(ledgers.values())).steps
+    console.print(
+        f"Of {steps:,} steps, {conflicts:,} read or write one place more than once, which an EREW PRAM does "
+        "not allow: its time has them done by sorting."
+    )
+    console.print(
+        "Loads are exact for every number of processors; the models are what is rough. CM-2 and CM-5 are "
+        "taken beyond the sizes that were built (65,536 and 1,024 processors); the CM-2 computes in single "
+        "precision, while these loads are of double. The mesh's traffic through its middle is taken as of "
+        "random places. Abstract machines count steps of a microsecond, by convention: compare the shape of "
+        "their curves."
+    )
+    for m in MODELS:
+        print_model(console, m)
+    write_csv(
+        out / "machines.csv",
+        ["processors", *seconds],
+        [[p, *(by[p] for by in seconds.values())] for p in ledgers],
+    )
+    _draw(seconds, out / "machines.png")
+    wrote(console, out, "machines")
+    return ledgers
+
+
+def _draw(seconds: dict[str, dict[int, float]], path: Path) -> None:
+    figure, axes = panels(2, 6.0)
+    for name, by in seconds.items():
+        p = list(by)
+        axes[0].loglog(p, list(by.values()), "o-", base=2, label=name)
+        axes[1].loglog(p, [by[p[0]] / s for s in by.values()], "o-", base=2, label=name)
+    axes[1].loglog(p, [q / p[0] for q in p], ":", color="0.6", base=2, label="linear")
+    axes[0].set(xlabel="processors", ylabel="predicted seconds")
+    axes[1].set(xlabel="processors", ylabel=f"speed-up over {p[0]} processors")
+    for ax in axes:
+        ax.legend(fontsize=8)
+    figure.savefig(path, dpi=120)

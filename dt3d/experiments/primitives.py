@@ -1,0 +1,199 @@
+"""Step and element complexity of each primitive, measured against its formula: not in the paper.
+
+The names are those of G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990, chapters 3
+and 4, beside scanvec's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+import scanvec as sv
+
+from ._output import panels, write_csv, wrote
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+PROCESSORS = 32
+SIZES = tuple(2**k for k in range(4, 17, 3))
+
+
+class Inputs(NamedTuple):
+    """Vectors of length n on one machine, whose ledger starts empty."""
+
+    v: sv.Vector  # int32, random
+    flags: sv.Vector  # every third
+    order: sv.Vector  # a random permutation
+    counts: sv.Vector  # 0, 1, 2, 0, ...; they add up to about n
+    segments: sv.Segments  # of four elements
+
+
+@dataclass(frozen=True)
+class Primitive:
+    """An operation: its names, a call, and what it is said to take.
+
+    Attributes
+    ----------
+    name, blelloch : str
+        scanvec's name and the book's.
+    steps : (bits) -> int
+        Step complexity, where ``bits`` of the keys differ (it matters to sorts only).
+    elements : (n, steps) -> (int, int)
+        Least and greatest element complexity.
+    """
+
+    name: str
+    blelloch: str
+    call: Callable[[Inputs], Any]
+    steps: Callable[[int], int]
+    elements: Callable[[int, int], tuple[int, int]]
+
+
+def _each_step_all(n: int, steps: int) -> tuple[int, int]:
+    return n * steps, n * steps
+
+
+def _at_most_all(n: int, steps: int) -> tuple[int, int]:
+    return n, n * steps
+
+
+def _up_to_twice(n: int, steps: int) -> tuple[int, int]:
+    return n, 2 * n * steps
+
+
+def _make(
+    name: str, blelloch: str, call: Callable, steps: int, elements: Callable = _each_step_all
+) -> Primitive:
+    return Primitive(name, blelloch, call, lambda bits: steps, elements)
+
+
+CATALOGUE = (
+    _make("v + w", "p-add and other elementwise instructions", lambda x: x.v + x.order, 1),
+    _make("map(where=)", "p-select", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
+    _make("iota", "index", lambda x: x.v.machine.iota(len(x.v)), 1),
+    _make("permute", "permute", lambda x: sv.permute(x.v, x.order), 1),
+    _make("get", "permute, backwards; concurrent read", lambda x: sv.get(x.v, x.order), 1),
+    _make("send", "combining permute; concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
+    _make("scan(ADD)", "+-scan", lambda x: sv.scan(x.v, sv.ADD), 1),
+    _make("scan(MAX)", "max-scan", lambda x: sv.scan(x.v, sv.MAX), 1),
+    _make("scan(segments)", "seg-+-scan", lambda x: sv.scan(x.v, sv.ADD, x.segments), 1),
+    _make("backscan", "back-+-scan", lambda x: sv.backscan(x.v, sv.ADD), 1),
+    _make("copy_scan", "copy, seg-copy", lambda x: sv.copy_scan(x.v, x.segments), 1),
+    _make("enumerate", "enumerate", lambda x: sv.enumerate(x.flags), 2),
+    _make("reduce", "+-reduce", lambda x: sv.reduce(x.v, sv.ADD), 1),
+    _make("reduce(segments)", "seg-+-reduce", lambda x: sv.reduce(x.v, sv.ADD, x.segments), 5, _at_most_all),
+    _make("pack", "pack", lambda x: sv.pack(x.v, x.flags), 4),
+    _make("pack_index", "pack of index", lambda x: sv.pack_index(x.flags), 5),
+    _make("split", "split", lambda x: sv.split(x.v, x.flags), 5),
+    _make("append", "append", lambda x: sv.append(x.v, x.v), 5, _up_to_twice),
+    _make("distribute", "distribute, allocate", lambda x: sv.distribute(x.v, x.counts), 12, _up_to_twice),
+    Primitive("rank", "rank", lambda x: sv.rank(x.v), lambda bits: 7 + 6 * bits, _each_step_all),
+    Primitive("sort", "split-radix-sort", lambda x: sv.sort(x.v), lambda bits: 6 + 6 * bits, _each_step_all),
+)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One operation over n elements, on ``PROCESSORS`` processors."""
+
+    primitive: Primitive
+    n: int
+    bits: int
+    row: sv.Row
+
+    @property
+    def stated_steps(self) -> int:
+        return self.primitive.steps(self.bits)
+
+    @property
+    def holds(self) -> bool:
+        least, most = self.primitive.elements(self.n, self.stated_steps)
+        return self.row.steps == self.stated_steps and least <= self.row.elements <= most
+
+
+def measurements(sizes: tuple[int, ...] = SIZES) -> Iterator[Measurement]:
+    """Every operation over vectors of every size."""
+    rng = np.random.default_rng(0)
+    for n in sizes:
+        cm = sv.Simulated(PROCESSORS, model=sv.SCAN)
+        values = rng.integers(0, 16, n).astype(np.int32)
+        values[:2] = 0, 15
+        inputs = Inputs(
+            cm.vector(values),
+            cm.vector(np.arange(n) % 3 == 1),
+            cm.vector(rng.permutation(n).astype(np.int32)),
+            cm.vector((np.arange(n) % 3).astype(np.int32)),
+            sv.Segments.from_lengths(cm.full(n // 4, 4, np.int32)),
+        )
+        differ = int(np.bitwise_or.reduce(values ^ values[0])).bit_count()
+        for primitive in CATALOGUE:
+            cm.ledger.entries.clear()
+            with cm.operation(primitive.name):
+                primitive.call(inputs)
+            (row,) = cm.ledger.table("operation")
+            yield Measurement(primitive, n, differ, row)
+
+
+def primitives(out: Path, console: Console) -> list[Measurement]:
+    """Step and element complexity of each primitive of the scan-vector model, measured against its formula.
+
+    Writes ``primitives.csv`` and ``primitives.png`` into ``out``.
+    """
+    from rich.table import Table
+
+    out.mkdir(parents=True, exist_ok=True)
+    with console.status("..."):
+        found = list(measurements())
+    largest = SIZES[-1]
+    table = Table(title=f"Steps and elements of {largest:,} elements on {PROCESSORS} processors")
+    for column in (
+        "scanvec",
+        "Blelloch 1990",
+        "steps: stated / counted",
+        "elements / n",
+        "VP steps / step",
+        "holds",
+    ):
+        table.add_column(column, justify="left" if column in ("scanvec", "Blelloch 1990") else "right")
+    for m in found:
+        if m.n == largest:
+            table.add_row(
+                m.primitive.name,
+                m.primitive.blelloch,
+                f"{m.stated_steps} / {m.row.steps}",
+                f"{m.row.elements / m.n:.2f}",
+                f"{m.row.vp_steps / m.row.steps:.0f}",
+                "yes" if all(o.holds for o in found if o.primitive is m.primitive) else "no",
+            )
+    console.print(table)
+    console.print(
+        f"It holds if the steps are those stated, and the elements within the stated bounds, at all of "
+        f"{', '.join(f'{n:,}' for n in SIZES)} elements. With {PROCESSORS} processors a step over n elements "
+        f"takes ceil(n / {PROCESSORS}) VP steps: {largest // PROCESSORS:,} at {largest:,}."
+    )
+    write_csv(
+        out / "primitives.csv",
+        ["scanvec", "blelloch", "n", "stated_steps", "steps", "elements", "vp_steps", "messages", "holds"],
+        [
+            (m.primitive.name, m.primitive.blelloch, m.n, m.stated_steps, m.row.steps, m.row.elements)
+            + (m.row.vp_steps, m.row.messages, m.holds)
+            for m in found
+        ],
+    )
+    figure, axes = panels(2, 6.0)
+    for primitive in CATALOGUE:
+        own = [m for m in found if m.primitive is primitive]
+        axes[0].loglog([m.n for m in own], [m.row.elements for m in own], "-", label=primitive.name)
+        axes[1].semilogx([m.n for m in own], [m.row.steps for m in own], "-", label=primitive.name)
+    axes[0].set(xlabel="n", ylabel="elements")
+    axes[1].set(xlabel="n", ylabel="steps")
+    axes[1].legend(fontsize=5, ncols=2)
+    figure.savefig(out / "primitives.png", dpi=120)
+    wrote(console, out, "primitives")
+    return found

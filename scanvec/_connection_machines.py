@@ -1,0 +1,78 @@
+"""The Connection Machines, in seconds.
+
+The constants say where they come from:
+
+* CMMD 3.1 on the CM-5: a message takes 80 us of software, and 8.7 MB/s point to point; a combining operation
+  on the control network 5 us for integers, 25 us for floats.
+* C. E. Leiserson and others, The Network Architecture of the Connection Machine CM-5, SPAA 1992: the fat tree
+  has 20 MB/s a node within 4 nodes, 10 within 16, and 5 beyond.
+* Y. A. Teng, F. Sullivan, I. Beichl, E. Puppo, Supercomputing '93, 112-121, Table 1: the times that
+  "calibrated" refers to.
+* G. E. Blelloch, Scans as Primitive Parallel Operations, IEEE Transactions on Computers 38, 1989: a scan of
+  the CM takes about 550 bit cycles, a reference through the router about 600.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ._entry import Entry
+from ._model import CALIBRATED, ESTIMATE, SOURCED, Constant, Model, used_processors
+from ._pram import local_scan
+
+TABLE1 = "Teng et al. 1993, Table 1, random sets, 32 nodes; `dt3d experiment table1` fits it anew"
+
+
+def _cm5(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
+    if entry.primitive == "map":
+        return c["issue"] + entry.operations * entry.vp_ratio * c["element"]
+    if entry.primitive == "scan":
+        across = c["combine"] if used_processors(entry) > 1 else 0.0
+        return c["issue"] + entry.operations * (local_scan(entry) * c["element"] + across)
+    byte = c["byte_within_16"] if processors <= 16 else c["byte"]
+    return c["issue"] + entry.vp_ratio * c["element"] + entry.busiest * (c["message"] + entry.bytes * byte)
+
+
+CM5 = Model(
+    "CM5",
+    "SPARC nodes without vector units, a fat tree, a control network that scans. A step is issued to all "
+    "nodes, which loop over elements and operations; the busiest node's messages come on top",
+    _cm5,
+    {
+        "issue": Constant(1.43e-4, "s a step", CALIBRATED, TABLE1),
+        "element": Constant(2.08e-6, "s an operation and element", CALIBRATED, TABLE1),
+        "message": Constant(8e-5, "s a message", SOURCED, "CMMD 3.1; C* may need less, see table2"),
+        "byte": Constant(1 / 5e6, "s a byte", SOURCED, "Leiserson et al. 1992: 5 MB/s beyond 16 nodes"),
+        "byte_within_16": Constant(
+            1 / 8.7e6, "s a byte", SOURCED, "CMMD 3.1: 8.7 MB/s, less than the tree has"
+        ),
+        "combine": Constant(5e-6, "s a scan", SOURCED, "CMMD 3.1: an integer over the control network"),
+    },
+)
+
+
+def _cm2(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
+    compute = entry.operations * entry.vp_ratio * c["element"]
+    words = max(1.0, entry.bytes / 4)
+    if entry.primitive == "map":
+        return compute
+    if entry.primitive == "scan":
+        return compute + entry.vp_ratio * words * c["scan"] / c["clock"]
+    routed = max(entry.vp_ratio, entry.busiest) if entry.messages else 0
+    return compute + routed * words * c["reference"] / c["clock"]
+
+
+CM2 = Model(
+    "CM2",
+    "bit-serial processors, 32 to a floating-point unit, a hypercube router; 32-bit words. A step takes as "
+    "many cycles for each virtual processor as the operation has",
+    _cm2,
+    {
+        "clock": Constant(7e6, "cycles a second", ESTIMATE, "28 Gflop/s peak, 2,048 units, 2 flops a cycle"),
+        "element": Constant(
+            3.1e-5, "s an operation and element", ESTIMATE, "7.5 % of that peak, of 65,536"
+        ),
+        "scan": Constant(550, "cycles a word", SOURCED, "Blelloch 1989"),
+        "reference": Constant(600, "cycles a word", SOURCED, "Blelloch 1989"),
+    },
+)  # fmt: skip
