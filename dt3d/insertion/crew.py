@@ -69,6 +69,9 @@ class Crew:
         self.rows = rows
         self.points = rows.reshape(-1, 4)
         self.labels = rows.view(np.uint32)
+        # what underflow can do to a determinant; nothing is known of coordinates that are not scaled
+        scaled = np.abs(self.points[:, :3]).max() <= 1
+        self.slack, self.reach = (2.0**-1000, 1.0) if scaled else (np.inf, np.inf)
         self.store = store
         self.n = len(self.points)
         self.workers = [Worker(self.n) for _ in range(self.threads)]
@@ -123,7 +126,7 @@ class Crew:
         low, length = int(worker.state[LOW]), int(worker.state[LENGTH])
         for part in (2, 4, 8):
             site = int(worker.todo[len(worker.todo) // part])
-            start = locate(self.points, self.rows, self.store.mesh, start, site, worker.work)
+            start = locate(self.points, self.rows, self.store.mesh, start, site, self.slack, worker.work)
             corners = self.store.mesh[8 * start : 8 * start + 4].astype(np.int64)
             if ((corners != INFINITE) & ((corners - low) % self.n < length)).any():
                 break
@@ -161,6 +164,8 @@ class Crew:
                 worker.todo,
                 state,
                 worker.scratch,
+                self.slack,
+                self.reach,
                 worker.work,
             )
             if short == NEEDS_SCRATCH:

@@ -20,6 +20,7 @@ SMALLEST_ROUND = 64
 MOST_BITS = 21  # of a coordinate's place on the curve
 SHORT_RUN = 128  # sites in one cell that are sorted by coordinates; more are placed on a finer curve
 LEAST_EXTENT = 2.0**-900  # whose reciprocal does not overflow
+GREATEST_EXTENT = 2.0**900
 
 
 def along_curve(
@@ -28,11 +29,12 @@ def along_curve(
     """The rows of sites float64 (n, 3) along a Hilbert curve, int64 (n,); equal sites together, by index.
 
     ``in_pieces(work, n)`` calls ``work(begin, end)`` for all of range(n), in pieces, at the same time perhaps.
-    Coordinates are below 1 in magnitude.
     """
     n = len(sites)
     low = sites.min(axis=0)
     extent = float((sites.max(axis=0) - low).max())
+    if not extent < GREATEST_EXTENT:
+        return np.lexsort(sites.T[::-1])
     if not extent:
         return np.arange(n)
     if extent < LEAST_EXTENT:

@@ -20,6 +20,8 @@ inside if d + e < r - e, outside if d - e > r + e. The constants below are large
 rounding in the bounds themselves and in m does not matter; and the squares of r - 2 e and r + 2 e are moved by
 2^-21 of themselves, which is more than rounding them to float32 (2^-24) and computing d^2 (6 u) can do.
 
+``reach`` is a bound of the coordinates' magnitude, 1 if they are scaled, and infinite if they cannot be.
+
 No product under- or overflows to any effect for coordinates below 1 in magnitude and the ranges checked here.
 Where a bound fails, and for ghosts, whose coordinates are NaN, nothing is proved: the interval is (-1, inf).
 """
@@ -36,7 +38,7 @@ SLACK = 2.0**-21
 
 
 @numba.njit(cache=True, error_model="numpy", inline="always")
-def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, spheres, radii):
+def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, spheres, radii):
     """Store the spheres of tetrahedra (site, p[f], q[f], r[f]) in slots[f], for f below ``facets``.
 
     ``x``, ``y``, ``z``, ``squared``: the vertices relative to the site, NaN for the infinite one.
@@ -59,7 +61,7 @@ def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, spheres,
         m, radius = np.sqrt(m2), np.sqrt(u2)
         d_error = (100.0 * U) * (m2 * m)
         rest = abs(d) - d_error
-        error = ((160.0 * U) * (m2 * m2) + radius * d_error) / rest + (8.0 * U) * radius + 4.0 * U
+        error = ((160.0 * U) * (m2 * m2) + radius * d_error) / rest + (8.0 * U) * radius + (4.0 * U) * reach
         low = max(radius - 2.0 * error, 0.0)
         high = radius + 2.0 * error
         t = slots[f]

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import numba
 
-from ..predicates.exact import orient3d_exact
-from ..predicates.filtered import ORIENT3D_BOUND
+from ..predicates.filtered import ORIENT3D_BOUND, orient3d
 from .layout import INFINITE
 from .ownership import owns, owns_one
 
@@ -24,8 +23,10 @@ def _orientation(rows, s, a, b, c):
 
 
 @numba.njit(inline="always", cache=True, error_model="numpy")
-def walk(points, rows, mesh, t, site, low, length, n, w):
+def walk(points, rows, mesh, t, site, low, length, n, slack, w):
     """From t to the tetrahedron that contains a site, or a ghost whose facet it is beyond.
+
+    ``slack`` is a bound of what underflow can do to a determinant.
 
     Also whether it got there, or stopped where every way on leaves what the thread may read; and the steps.
     """
@@ -55,7 +56,8 @@ def walk(points, rows, mesh, t, site, low, length, n, w):
                     b = numba.int64(mesh[8 * t | k ^ 2])
                     c = numba.int64(mesh[8 * t | k ^ 3])
                     det, bound = _orientation(rows, site, a, b, c)
-                    if det < -bound or (det <= bound and orient3d_exact(points, site, a, b, c, w) < 0):
+                    bound += slack
+                    if det < -bound or (not det > bound and orient3d(points, site, a, b, c, w) < 0):
                         if (
                             whole
                             or owns(a, low, length, n)
@@ -72,7 +74,7 @@ def walk(points, rows, mesh, t, site, low, length, n, w):
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
-def locate(points, rows, mesh, t, site, w):
+def locate(points, rows, mesh, t, site, slack, w):
     """The tetrahedron that contains a site, or a ghost; for when no thread inserts."""
-    t, _, _ = walk(points, rows, mesh, t, site, 0, 1, 1, w)
+    t, _, _ = walk(points, rows, mesh, t, site, 0, 1, 1, slack, w)
     return t
