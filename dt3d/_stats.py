@@ -56,8 +56,8 @@ class InsertionStatistics:
     threads : int
         That inserted at the same time, at most.
     deferred : int
-        Times that a site was left for a later pass, since its cavity had sites of several threads. This, and with it
-        the counts above, depends on how many threads there are.
+        Times that a site was left for a later pass, since its cavity had sites of several threads. This,
+        and with it the counts above, depends on how many threads there are.
     inconsistencies : int
         Always 0: every decision is exact.
     seconds : dict of str to float

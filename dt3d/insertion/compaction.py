@@ -30,7 +30,8 @@ def number_finite(mesh, begin, end, first, number):
 
 @numba.njit(nogil=True, cache=True)
 def write_finite(mesh, begin, end, number, original, simplices, neighbors):
-    """Rows of the result: vertices by their indices in the input, neighbours by number, -1 beyond the hull."""
+    """Rows of the result: vertices by their indices in the input, neighbours by number, -1 beyond the
+    hull."""
     for t in range(begin, end):
         s = number[t]
         if s >= 0:

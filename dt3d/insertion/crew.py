@@ -1,8 +1,8 @@
 """Threads that insert at the same time, and what happens when one of them stops.
 
-The functions compiled by numba release the interpreter's lock, so these are real threads. They return to Python
-after every stretch of sites, where they see whether to go on; the thread that called runs the callback and gets
-the interrupts.
+The functions compiled by numba release the interpreter's lock, so these are real threads. They return to
+Python after every stretch of sites, where they see whether to go on; the thread that called runs the
+callback and gets the interrupts.
 """
 
 from __future__ import annotations
@@ -14,7 +14,19 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 import numpy as np
 
 from .kernel import (
-    CREATED, DEFERRED, FREE_COUNT, LAST, LENGTH, LOW, NEEDS_SCRATCH, NEEDS_SLOTS, NEXT, STOP, TESTED, WALKED, insert,
+    CREATED,
+    DEFERRED,
+    FREE_COUNT,
+    LAST,
+    LENGTH,
+    LOW,
+    NEEDS_SCRATCH,
+    NEEDS_SLOTS,
+    NEXT,
+    STOP,
+    TESTED,
+    WALKED,
+    insert,
 )  # fmt: skip
 from .layout import INFINITE
 from .store import Store, Worker
@@ -90,17 +102,18 @@ class Crew:
             pending = self._insert_together(pending, pieces, turn)
             self.inserted = done - len(pending)
             self.deferred += len(pending)
+        worker = self.workers[0]
         while len(pending):
-            worker = self.workers[0]
             worker.claim(pending, 0, self.n)
-            self._insert(worker, lambda: self.report(self._count([worker]), self._slots()))
+            self._insert(worker, lambda: self.report(self._count([worker]), self.slots()))
             pending = worker.left()
             self.inserted = done - len(pending)
             if len(pending):
                 self.store.grow()
 
     def _insert_together(self, pending: np.ndarray, pieces: int, turn: int) -> np.ndarray:
-        """What threads deferred, each of which had one piece of the curve; where it begins changes each turn."""
+        """What threads deferred, each of which had one piece of the curve; where it begins changes each
+        turn."""
         first = len(pending) * turn // (2 * pieces)
         pending = np.roll(pending, -first)
         bounds = [len(pending) * i // pieces for i in range(pieces + 1)]
@@ -122,7 +135,8 @@ class Crew:
         return np.sort(np.concatenate(left))
 
     def _start_within(self, worker: Worker, start: int) -> int:
-        """Let a worker begin at a tetrahedron that it may read, if a few sites have one; where the walk ended."""
+        """Let a worker begin at a tetrahedron that it may read, if a few sites have one; where the walk
+        ended."""
         low, length = int(worker.state[LOW]), int(worker.state[LENGTH])
         for part in (2, 4, 8):
             site = int(worker.todo[len(worker.todo) // part])
@@ -142,7 +156,7 @@ class Crew:
                 for task in ended:
                     task.result()
                 if running:
-                    self.report(self._count(workers), self._slots())
+                    self.report(self._count(workers), self.slots())
         except BaseException:
             self.stopped = True
             wait(tasks)
@@ -179,10 +193,11 @@ class Crew:
     def _count(self, workers: list[Worker]) -> int:
         return self.inserted + sum(int(w.state[NEXT] - w.state[DEFERRED]) for w in workers)
 
-    def _slots(self) -> int:
+    def slots(self) -> int:
+        """How many hold tetrahedra, ghosts included."""
         return self.store.used - sum(int(w.state[FREE_COUNT]) + w.fresh for w in self.workers)
 
     def counts(self) -> tuple[int, int, int]:
         """Tetrahedra walked through, tested and created, by all threads."""
-        total = sum(w.state for w in self.workers)
+        total = np.sum([w.state for w in self.workers], axis=0)
         return int(total[WALKED]), int(total[TESTED]), int(total[CREATED])

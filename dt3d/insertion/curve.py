@@ -1,8 +1,9 @@
-"""Positions along a Hilbert curve: near in number means near in space, without the jumps of the Morton order.
+"""Positions along a Hilbert curve: near in number means near in space, without the jumps of the Morton
+order.
 
-Its halves, quarters and eighths are pieces of space of their own, and so is what remains of it without one of
-them: the pieces of the curve that threads own can be moved along it, and what was the boundary of two pieces
-becomes the inside of one.
+Its halves, quarters and eighths are pieces of space of their own, and so is what remains of it without one
+of them: the pieces of the curve that threads own can be moved along it, and what was the boundary of two
+pieces becomes the inside of one.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import numba
 def hilbert_keys(sites, low, scale, bits, index_bits, begin, end, keys):
     """``keys[i] = position << index_bits | i`` of sites[i], int64, for i from begin to end - 1.
 
-    Positions have 3 ``bits`` bits, in the cube of side 2^bits / scale with the least corner ``low``. J. Skilling:
-    Programming the Hilbert curve. AIP Conference Proceedings 707, 2004.
+    Positions have 3 ``bits`` bits, in the cube of side 2^bits / scale with the least corner ``low``. J.
+    Skilling: Programming the Hilbert curve. AIP Conference Proceedings 707, 2004.
     """
     top = (1 << bits) - 1
     for i in range(begin, end):

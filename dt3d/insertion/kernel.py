@@ -1,12 +1,13 @@
 """Insertion of sites one by one: walk, cavity, star (A. Bowyer 1981, D. F. Watson 1981).
 
-The triangulation always covers space: beyond each hull facet lies a ghost tetrahedron, whose fourth vertex is the
-vertex at infinity. Sites that are cospherical are decided by the symbolic perturbation of their heights
-|p|^2 + e_p (O. Devillers, M. Teillaud: Perturbations and vertex removal in a 3D Delaunay triangulation, SODA
-2003), so the result does not depend on the order of insertion, and no tetrahedron is flat.
+The triangulation always covers space: beyond each hull facet lies a ghost tetrahedron, whose fourth vertex
+is the vertex at infinity. Sites that are cospherical are decided by the symbolic perturbation of their
+heights |p|^2 + e_p (O. Devillers, M. Teillaud: Perturbations and vertex removal in a 3D Delaunay
+triangulation, SODA 2003), so the result does not depend on the order of insertion, and no tetrahedron is
+flat.
 
-The parts of `insert` are inlined into one function: a call between compiled functions counts references to every
-array that it passes, which took a fifth of the time.
+The parts of `insert` are inlined into one function: a call between compiled functions counts references to
+every array that it passes, which took a fifth of the time.
 """
 
 from __future__ import annotations
@@ -37,8 +38,8 @@ STATE = 14
 def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavity, rim, outer, w):
     """The tetrahedra in conflict with a site, from t on, and the facets around them; the numbers of both.
 
-    Those in ``cavity`` are marked. The number of facets is -1 where the cavity has tetrahedra that the thread does
-    not own, -2 where there is no room for more. Also returns how many were tested.
+    Those in ``cavity`` are marked. The number of facets is -1 where the cavity has tetrahedra that the
+    thread does not own, -2 where there is no room for more. Also returns how many were tested.
     """
     whole = length == n
     room = min(len(cavity), len(outer)) - 4
@@ -86,9 +87,9 @@ def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavi
 def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, slack, reach, w):
     """Insert the sites todo[state[NEXT]], ... before state[STOP] that the thread can; see `ownership`.
 
-    Those that it cannot go to the front of ``todo``, state[DEFERRED] of them. Returns `DONE`, or what is short;
-    then nothing is half done: supply it and call again. ``points``, ``rows`` and ``labels`` are views of one array,
-    so are ``spheres`` and ``radii``; see `layout`.
+    Those that it cannot go to the front of ``todo``, state[DEFERRED] of them. Returns `DONE`, or what is
+    short; then nothing is half done: supply it and call again. ``points``, ``rows`` and ``labels`` are
+    views of one array, so are ``spheres`` and ``radii``; see `layout`.
     """
     cavity, rim, outer, near, rel, edges, keys, values = scratch
     p, q, r, slots = rim[0], rim[1], rim[2], rim[3]

@@ -18,7 +18,8 @@ from .layout import DEAD, aligned
 from .order import along_curve, insertion_rounds, separate_copies
 from .store import LARGEST_BLOCK, Store
 
-SLOTS_PER_SITE = 8  # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
+# finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
+SLOTS_PER_SITE = 8
 STRETCH = 100_000  # sites between two reports
 SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
@@ -46,9 +47,9 @@ def triangulate(
 ) -> Outcome:
     """Triangulate sites, float64 (n, 3), exactly.
 
-    ``report(left, slots)`` is called after every stretch of sites. The caller has seen to it that the coordinates
-    are below 1 in magnitude and in the range of the exact predicates. With ``threads`` of None there are as many
-    as cores, or fewer where more do not pay.
+    ``report(left, slots)`` is called after every stretch of sites. The caller has seen to it that the
+    coordinates are below 1 in magnitude and in the range of the exact predicates. With ``threads`` of None
+    there are as many as cores, or fewer where more do not pay.
 
     Raises
     ------
@@ -87,7 +88,7 @@ def triangulate(
         for end in ends:
             crew.insert_round(todo[begin:end])
             begin = end
-        each_stretch(n, crew._slots())
+        each_stretch(n, crew.slots())
         seconds["insertion"] = time.perf_counter() - begun
 
         begun = time.perf_counter()
@@ -122,8 +123,6 @@ def _first(points: np.ndarray) -> np.ndarray:
 def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
-    # their memory is what the result needs
-    del store.spheres
     number = np.empty(slots, np.int32)
     pieces: dict[int, int] = {}
 
@@ -136,6 +135,8 @@ def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
     crew.in_pieces(lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
-    simplices, neighbors = np.empty((m, 4), np.int32), np.empty((m, 4), np.int32)
+    # the spheres have served; the result takes their memory, which is there and no less
+    result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
+    simplices, neighbors = result[0], result[1]
     crew.in_pieces(lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
     return simplices, neighbors

@@ -1,9 +1,9 @@
 """The order of sites in memory and of their insertion.
 
-In memory sites lie along a Hilbert curve, where equal sites are neighbours and are found. They are inserted in
-random rounds, each several times as large as all before it, along the curve within (N. Amenta, S. Choi, G. Rote:
-Incremental constructions con BRIO. SoCG 2003): the rounds keep the expected cost of a randomised insertion, the
-curve keeps consecutive sites, and their tetrahedra, near each other in memory.
+In memory sites lie along a Hilbert curve, where equal sites are neighbours and are found. They are
+inserted in random rounds, each several times as large as all before it, along the curve within (N. Amenta,
+S. Choi, G. Rote: Incremental constructions con BRIO. SoCG 2003): the rounds keep the expected cost of a
+randomised insertion, the curve keeps consecutive sites, and their tetrahedra, near each other in memory.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ def along_curve(
 ) -> np.ndarray:
     """The rows of sites float64 (n, 3) along a Hilbert curve, int64 (n,); equal sites together, by index.
 
-    ``in_pieces(work, n)`` calls ``work(begin, end)`` for all of range(n), in pieces, at the same time perhaps.
+    ``in_pieces(work, n)`` calls ``work(begin, end)`` for all of range(n), in pieces, at the same time
+    perhaps.
     """
     n = len(sites)
     low = sites.min(axis=0)
@@ -53,7 +54,8 @@ def along_curve(
 
 @numba.njit(nogil=True, cache=True)
 def _sort_short_runs(sites, keys, index_bits, long_runs):
-    """Replace keys by indices, sorted by coordinates within short runs of one position; returns the long ones."""
+    """Replace keys by indices, sorted by coordinates within short runs of one position; returns the long
+    ones."""
     n, mask, count = len(keys), (1 << index_bits) - 1, 0
     i = 0
     while i < n:
@@ -87,7 +89,8 @@ def _before(sites, a, b):
 
 @numba.njit(nogil=True, cache=True)
 def separate_copies(sites, order):
-    """Move the first of equal sites to the front of ``order``, as `along_curve` gave it; returns their number.
+    """Move the first of equal sites to the front of ``order``, as `along_curve` gave it; returns their
+    number.
 
     Also the pairs (a later copy, the first one), int32 (k, 2), by the index of the copy.
     """
@@ -119,10 +122,11 @@ def _equal(sites, a, b):
 
 @numba.njit(nogil=True, cache=True)
 def insertion_rounds(n, seed, left_out):
-    """Sites 0 .. n-1 without four in rounds, ascending within each: uint32 (n - 4,), and where each round ends.
+    """Sites 0 .. n-1 without four in rounds, ascending within each: uint32 (n - 4,), and where each round
+    ends.
 
-    Each site is in the last round with probability 3/4, in the one before with 3/16, and so on; the first has
-    about `SMALLEST_ROUND`.
+    Each site is in the last round with probability 3/4, in the one before with 3/16, and so on; the first
+    has about `SMALLEST_ROUND`.
     """
     rounds = 1
     while n >> (ROUND_BITS * rounds) > SMALLEST_ROUND:

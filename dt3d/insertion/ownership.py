@@ -1,15 +1,17 @@
 """Who may change what: each thread owns the sites of one piece of the curve.
 
-A thread changes a tetrahedron only if it owns all its finite vertices; a site whose cavity has others is deferred
-to a later pass with other pieces. Between two joins of the threads, then,
+A thread changes a tetrahedron only if it owns all its finite vertices; a site whose cavity has others is
+deferred to a later pass with other pieces. Between two joins of the threads, then,
 
-* tetrahedra with vertices of several owners are changed by nobody, but for the slot of the neighbour beyond a
-  facet whose finite vertices one thread owns, which only that thread changes;
-* a tetrahedron with at least one vertex that a thread owns is either its own or changed by nobody, and so is what
-  lies beyond a facet with such a vertex. The walk and the search of the cavity go through no others.
+* tetrahedra with vertices of several owners are changed by nobody, but for the slot of the neighbour
+  beyond a facet whose finite vertices one thread owns, which only that thread changes;
+* a tetrahedron with at least one vertex that a thread owns is either its own or changed by nobody, and so
+  is what lies beyond a facet with such a vertex. The walk and the search of the cavity go through no
+  others.
 
 So no word is written by one thread and touched by another, and no lock or atomic operation is needed.
-The triangulation is unique, so what is deferred changes the result as little as the order of insertion does.
+The triangulation is unique, so what is deferred changes the result as little as the order of insertion
+does.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""The star of a new site: a tetrahedron to every facet of the cavity, each in its place among the others."""
+"""The star of a new site: a tetrahedron to every facet of the cavity, each in its place among the
+others."""
 
 from __future__ import annotations
 
@@ -13,8 +14,8 @@ NARROW = 6  # a star of up to 2^6 vertices is linked through a table of all edge
 def number_vertices(rows, labels, x, y, z, rim, facets, near, rel):
     """Replace the vertices of the facets by 0, 1, 2, ...; returns how many there are.
 
-    ``near`` gets the vertices, the infinite one first, ``rel`` their coordinates relative to x, y, z and the
-    squared lengths. A label is valid if ``near`` agrees with it, so nothing has to be cleared.
+    ``near`` gets the vertices, the infinite one first, ``rel`` their coordinates relative to x, y, z and
+    the squared lengths. A label is valid if ``near`` agrees with it, so nothing has to be cleared.
     """
     count = 1
     for f in range(facets):
@@ -39,8 +40,8 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel):
 def link_narrow(mesh, p, q, r, slots, facets, edges):
     """Make neighbours of star tetrahedra that share an edge of the rim, in a table of directed edges.
 
-    The facet opposite p belongs to the directed edge (q, r) as seen from the site, and to (r, q) as seen from the
-    other tetrahedron that has it.
+    The facet opposite p belongs to the directed edge (q, r) as seen from the site, and to (r, q) as seen
+    from the other tetrahedron that has it.
     """
     for f in range(facets):
         i, j, k = numba.int64(p[f]), numba.int64(q[f]), numba.int64(r[f])

@@ -63,7 +63,7 @@ class Store:
             If the slots could not be named by 32 bits.
         """
         if 2 * self.capacity > MOST_SLOTS:
-            msg = f"the triangulation needs more than {self.capacity} tetrahedra, which 32-bit numbers cannot name"
+            msg = f"more than {self.capacity} tetrahedra are needed, which 32-bit numbers cannot name"
             raise ValueError(msg)
         self.capacity *= 2
         for name, width, dtype in (("mesh", 8, np.uint32), ("spheres", 4, np.float64)):
@@ -73,7 +73,8 @@ class Store:
 
 
 class Worker:
-    """What one thread has for itself: its counts, its free slots, room for a cavity and for exact arithmetic."""
+    """What one thread has for itself: its counts, its free slots, room for a cavity and for exact
+    arithmetic."""
 
     def __init__(self, n: int) -> None:
         self.state = np.zeros(STATE, np.int64)
@@ -116,7 +117,8 @@ class Worker:
         return int(self.state[FRESH_END] - self.state[FRESH])
 
     def take_slots(self, store: Store) -> bool:
-        """A new block; what was left of the last one is given up where it does not adjoin. Whether there was one."""
+        """A new block; what was left of the last one is given up where it does not adjoin. Whether there
+        was one."""
         begin, end = store.take()
         if begin == self.state[FRESH_END]:
             self.state[FRESH_END] = end

@@ -1,5 +1,5 @@
-"""The walk to a site: through any facet that has the site on its other side (O. Devillers, S. Pion, M. Teillaud:
-Walking in a triangulation, International Journal of Foundations of Computer Science 13, 2002)."""
+"""The walk to a site: through any facet that has the site on its other side (O. Devillers, S. Pion, M.
+Teillaud: Walking in a triangulation, International Journal of Foundations of Computer Science 13, 2002)."""
 
 from __future__ import annotations
 

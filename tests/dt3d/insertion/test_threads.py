@@ -1,4 +1,5 @@
-"""One answer from any number of threads, in any interleaving; threads that end when something goes wrong."""
+"""One answer from any number of threads, in any interleaving; threads that end when something goes
+wrong."""
 
 import threading
 import time
@@ -32,7 +33,8 @@ def sets(*names):
 
 @pytest.fixture
 def yielding(monkeypatch):
-    """Pieces, stretches and blocks so small that threads meet often, and pauses at random between stretches."""
+    """Pieces, stretches and blocks so small that threads meet often, and pauses at random between
+    stretches."""
     monkeypatch.setattr(crew, "LEAST_PIECE", 20)
     monkeypatch.setattr(crew, "STRETCH", 7)
     monkeypatch.setattr(crew, "PATIENCE", 0.001)
