@@ -53,6 +53,11 @@ class InsertionStatistics:
         Tetrahedra tested for conflict with a site.
     created : int
         Tetrahedra made, ghosts included; most are destroyed by later sites.
+    threads : int
+        That inserted at the same time, at most.
+    deferred : int
+        Times that a site was left for a later pass, since its cavity had sites of several threads. This,
+        and with it the counts above, depends on how many threads there are.
     inconsistencies : int
         Always 0: every decision is exact.
     seconds : dict of str to float
@@ -62,6 +67,8 @@ class InsertionStatistics:
     walked: int
     tested: int
     created: int
+    threads: int
+    deferred: int
     inconsistencies: int
     seconds: dict[str, float]
 

@@ -50,6 +50,9 @@ class Delaunay:
     machine : scanvec.Machine, optional
         Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
         machines give the same tetrahedra.
+    threads : int, optional
+        At most so many threads insert at the same time. By default as many as this process has cores, or
+        fewer where more do not pay. The result does not depend on it.
     dtype : float64 or float32, optional
         Working precision, float64 by default. Single precision is for experiments with
         ``robustness="perturb"``: it decides less.
@@ -114,6 +117,7 @@ class Delaunay:
         method: str = "auto",
         robustness: str = "exact",
         machine: sv.Machine | None = None,
+        threads: int | None = None,
         dtype: Any = None,
         seed: int = 0,
         callback: Callable[[Progress], Any] | None = None,
@@ -125,6 +129,7 @@ class Delaunay:
             msg = f"callback must be callable, got {callback!r}"
             raise ValueError(msg)
         method = _check_method(method, robustness, machine, working)
+        _check_threads(threads, method)
         self.points = check_points(points)
         self._exact = robustness == "exact"
 
@@ -133,27 +138,33 @@ class Delaunay:
                 callback(Progress(iteration, left, tetrahedra, time.perf_counter() - begun))
 
         if method == "insertion":
-            self._insert(seed, report, begun)
+            self._insert(seed, threads, report, begun)
         else:
             machine = sv.Device() if machine is None else machine
             self._extrapolate(machine, robustness == "exact", working, seed, report, begun)
 
-    def _insert(self, seed: int, report: Callable[[int, int, int], None], begun: float) -> None:
+    def _insert(
+        self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
+    ) -> None:
         from .insertion import triangulate
 
-        used, self.duplicates = first_copies(self.points)
-        sites = exactly_scaled(self.points[used])
         stretches = itertools.count(1)
         outcome = triangulate(
-            sites, seed, lambda sites_in, made: report(next(stretches), len(used) - sites_in, made)
+            exactly_scaled(self.points),
+            seed,
+            threads,
+            lambda left, made: report(next(stretches), left, made),
         )
-        self.simplices = used.astype(np.int32)[outcome.simplices]
+        self.simplices = outcome.simplices
         self.neighbors = outcome.neighbors
+        self.duplicates = outcome.duplicates
         self.iteration = np.ones(len(self.simplices), np.int32)
         self.stats = InsertionStatistics(
             walked=outcome.walked,
             tested=outcome.tested,
             created=outcome.created,
+            threads=outcome.threads,
+            deferred=outcome.deferred,
             inconsistencies=0,
             seconds=outcome.seconds | {"total": time.perf_counter() - begun},
         )
@@ -276,6 +287,17 @@ def _check_method(method: Any, robustness: Any, machine: Any, dtype: np.dtype) -
     if method == "auto":
         return "extrapolation" if only_extrapolation else "insertion"
     return method
+
+
+def _check_threads(threads: Any, method: str) -> None:
+    if threads is None:
+        return
+    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or threads < 1:
+        msg = f"threads must be a positive integer, or None for as many as there are cores, got {threads!r}"
+        raise ValueError(msg)
+    if method != "insertion":
+        msg = f"threads={threads} goes with method='insertion'; what extrapolation runs on is its machine"
+        raise ValueError(msg)
 
 
 def _check_dtype(dtype: Any) -> np.dtype:

@@ -71,8 +71,7 @@ def verify(
         named = f"{simplices.min()} to {simplices.max()}"
         msg = f"simplices name sites {named}, but there are {len(points)} points"
         raise ValueError(msg)
-    sites, rank = exactly_scaled(points), np.empty(len(points), np.int64)
-    rank[np.lexsort(points.T[::-1])] = np.arange(len(points))
+    sites = exactly_scaled(points)
 
     volumes = orient3d(*(sites[simplices[:, k]] for k in range(4)))
     adjacent, crowded = _adjacent(simplices)
@@ -84,7 +83,7 @@ def verify(
     if neighbors is not None:
         checks.append(("neighbors says which ones", int((np.asarray(neighbors) != adjacent).sum())))
     hull = _topology.hull_facets(simplices, adjacent)
-    inside_spheres = _violations(sites, rank, simplices, adjacent, perturbed)
+    inside_spheres = _violations(sites, simplices, adjacent, perturbed)
     checks += [
         ("no site is inside the sphere across a facet", inside_spheres),
         ("the hull is closed and convex along every edge", _dents(sites, hull)),
@@ -116,24 +115,22 @@ def _adjacent(simplices: np.ndarray) -> tuple[np.ndarray, int]:
     return adjacent.reshape(-1, 4), int((same[1:] & same[:-1]).sum())
 
 
-def _violations(
-    sites: np.ndarray, rank: np.ndarray, simplices: np.ndarray, adjacent: np.ndarray, perturbed: bool
-) -> int:
+def _violations(sites: np.ndarray, simplices: np.ndarray, adjacent: np.ndarray, perturbed: bool) -> int:
     t, k = np.nonzero(adjacent >= 0)
     other = simplices[adjacent[t, k]]
     # the vertex of the neighbour that the facet does not have
     shared = (other[:, :, None] == simplices[t][:, None, :]).any(axis=2)
     apex = other[np.arange(len(other)), shared.argmin(axis=1)]
-    return _count_inside(sites, rank, simplices[t], apex, perturbed, work_array(sites))
+    return _count_inside(sites, simplices[t], apex, perturbed, work_array(sites))
 
 
 @numba.njit(cache=True)
-def _count_inside(sites, rank, tetrahedra, apex, perturbed, w):
+def _count_inside(sites, tetrahedra, apex, perturbed, w):
     count = 0
     for i in range(len(apex)):
         v = tetrahedra[i, 0], tetrahedra[i, 1], tetrahedra[i, 2], tetrahedra[i, 3]
         if perturbed:
-            count += inside(sites, rank, v, apex[i], w)
+            count += inside(sites, v, apex[i], w)
         else:
             count += in_sphere(sites, v[0], v[1], v[2], v[3], apex[i], w) > 0
     return count

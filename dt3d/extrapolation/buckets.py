@@ -140,17 +140,25 @@ def morton_code(i: Any, j: Any, k: Any) -> Any:
 def _grid(low: list[float], high: list[float], wanted: float, dtype: Any) -> Grid:
     """Cubic cells over the box from low to high, about ``wanted`` of them."""
     extents = np.maximum(np.subtract(high, low), 0)
-    # bisect for the side: the number of cells falls with it
+    # bisect for the side: the number of cells falls with it, in steps
     small, large = extents.max() / 2**20, max(extents.max(), np.finfo(np.float32).tiny)
     for _ in range(60):
         side = np.sqrt(small * large)
-        if np.prod(np.maximum(np.ceil(extents / side), 1)) > wanted:
+        if np.prod(_divisions(extents, side)) > wanted:
             small = side
         else:
             large = side
-    counts = [np.int32(max(1, np.ceil(e / large))) for e in extents]
+    # of the numbers on both sides of the step the one that is nearer, divided evenly
+    fine, coarse = _divisions(extents, small), _divisions(extents, large)
+    counts = fine if np.prod(fine) * np.prod(coarse) < wanted**2 else coarse
+    side = max((extents / counts).max(), np.finfo(np.float32).tiny)
     relative = 1e-3 if dtype is np.float32 else 1e-6
     greatest = float(np.abs([low, high]).max())
-    slack = relative * large + 4 * float(np.finfo(dtype).eps) * greatest
+    slack = relative * side + 4 * float(np.finfo(dtype).eps) * greatest
     origin, end = (Point(*(dtype(v) for v in corner)) for corner in (low, high))
-    return Grid(origin, end, dtype(large), dtype(slack), *counts)
+    return Grid(origin, end, dtype(side), dtype(slack), *counts.astype(np.int32))
+
+
+def _divisions(extents: np.ndarray, side: float) -> np.ndarray:
+    """How many cells of a side cover each extent."""
+    return np.maximum(np.ceil(extents / side), 1)

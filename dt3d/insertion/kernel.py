@@ -6,9 +6,8 @@ heights |p|^2 + e_p (O. Devillers, M. Teillaud: Perturbations and vertex removal
 triangulation, SODA 2003), so the result does not depend on the order of insertion, and no tetrahedron is
 flat.
 
-Arrays. ``vertices[t]`` are four sites or `INFINITE`; a tetrahedron is positive, a ghost would be if its
-infinite vertex were a site beyond its facet. ``neighbors[t, k]`` is 4 u + j where the k-th facet of t
-(opposite its k-th vertex) is the j-th of u. `DEAD` in ``vertices[t, 0]`` marks a free slot.
+The parts of `insert` are inlined into one function: a call between compiled functions counts references to
+every array that it passes, which took a fifth of the time.
 """
 
 from __future__ import annotations
@@ -16,195 +15,153 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from ..predicates.perturbed import inside, orientation_with
-
-INFINITE = -1
-DEAD = -2
-UNKNOWN = -1  # in `neighbors`: not found yet
+from .conflict import conflicts
+from .layout import DEAD
+from .ownership import owns_all
+from .prefetch import prefetch
+from .spheres import round_spheres
+from .star import NARROW, link_narrow, link_wide, number_vertices
+from .walk import walk
 
 # what `insert` returns when it could not go on
-DONE = 0
-FULL = 1
+DONE, NEEDS_SLOTS, NEEDS_SCRATCH = range(3)
 
-# places of `state`
-NEXT, SLOTS, FREE, LAST, STAMP, WALKED, TESTED, CREATED = range(8)
-
-
-@numba.njit(cache=True)
-def _corners(vertices, t):
-    return vertices[t, 0], vertices[t, 1], vertices[t, 2], vertices[t, 3]
+# places of `state`, one for each thread
+(NEXT, STOP, DEFERRED) = range(3)  # in `todo`
+(LAST, FREE, FREE_COUNT, FRESH, FRESH_END) = range(3, 8)  # tetrahedra
+(LOW, LENGTH, SITES) = range(8, 11)  # what the thread owns
+(WALKED, TESTED, CREATED) = range(11, 14)
+STATE = 14
 
 
-@numba.njit(cache=True)
-def _infinite_corner(v):
-    """Which vertex of a ghost is the infinite one; -1 for finite tetrahedra."""
-    if v[0] == INFINITE:
-        return 0
-    if v[1] == INFINITE:
-        return 1
-    if v[2] == INFINITE:
-        return 2
-    return 3 if v[3] == INFINITE else -1
+@numba.njit(inline="always", cache=True, error_model="numpy")
+def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavity, rim, outer, w):
+    """The tetrahedra in conflict with a site, from t on, and the facets around them; the numbers of both.
 
-
-@numba.njit(cache=True)
-def _conflicts(points, rank, vertices, neighbors, t, site, w):
-    """Whether a site destroys tetrahedron t."""
-    v = _corners(vertices, t)
-    ghost = _infinite_corner(v)
-    if ghost >= 0:
-        # the site in the place of the infinite vertex: beyond the facet, or on its plane
-        sign = orientation_with(points, v, ghost, site, w)
-        if sign != 0:
-            return sign > 0
-        # the sphere of the tetrahedron within meets the plane in the facet's circle
-        v = _corners(vertices, neighbors[t, ghost] >> 2)
-    return inside(points, rank, v, site, w)
-
-
-@numba.njit(cache=True)
-def _walk(points, vertices, neighbors, t, site, w):
-    """From t to the tetrahedron that contains a site, or a ghost whose facet it is beyond; and the steps."""
-    ghost = _infinite_corner(_corners(vertices, t))
-    if ghost >= 0:
-        t = neighbors[t, ghost] >> 2
-    came, steps = -1, 0
-    while True:
-        v = _corners(vertices, t)
-        if _infinite_corner(v) >= 0:
-            return t, steps
-        moved = False
-        for i in range(4):
-            k = (i + steps) & 3  # another first facet each time
-            if k != came and orientation_with(points, v, k, site, w) < 0:
-                step = neighbors[t, k]
-                t, came = step >> 2, step & 3
-                steps += 1
-                moved = True
-                break
-        if not moved:
-            return t, steps
-
-
-@numba.njit(cache=True)
-def link(neighbors, t, k, u, j):
-    """Make the k-th facet of t and the j-th of u one."""
-    neighbors[t, k] = 4 * u + j
-    neighbors[u, j] = 4 * t + k
-
-
-@numba.njit(nogil=True, cache=True)
-def insert(points, rank, order, store, state, stop, w):
-    """Insert the sites order[state[NEXT]], ... up to order[stop - 1]; `DONE`, or `FULL` where memory ran out.
-
-    After `FULL` nothing is half done: give longer arrays and call again.
+    Those in ``cavity`` are marked. The number of facets is -1 where the cavity has tetrahedra that the
+    thread does not own, -2 where there is no room for more. Also returns how many were tested.
     """
-    vertices, neighbors, free, marks, made, cavity, rim = store
-    capacity = len(vertices)
-    while state[NEXT] < stop:
-        site = order[state[NEXT]]
-        t, steps = _walk(points, vertices, neighbors, state[LAST], site, w)
-        state[WALKED] += steps
-
-        # the cavity: all tetrahedra in conflict; marks[t] is the stamp for those, its negative for tested
-        # others
-        state[STAMP] += 1
-        stamp = state[STAMP]
-        marks[t] = stamp
-        cavity[0] = t
-        size, seen, facets = 1, 0, 0
-        while seen < size:
-            t = cavity[seen]
-            seen += 1
+    whole = length == n
+    room = min(len(cavity), len(outer)) - 4
+    cavity[0] = t
+    radii[8 * t + 7] = -radii[8 * t + 7]
+    size, facets, seen, tested = 1, 0, 0, 0
+    if not whole and not owns_all(mesh, t, low, length, n):
+        facets = -1
+    while seen < size and facets >= 0:
+        t = numba.int64(cavity[seen])
+        seen += 1
+        if size > room or facets > room:
+            facets = -2
+            break
+        if seen < size:
+            soon = 8 * numba.int64(cavity[seen])
             for k in range(4):
-                u = neighbors[t, k] >> 2
-                if marks[u] == stamp:
-                    continue
-                if marks[u] != -stamp:
-                    state[TESTED] += 1
-                    if _conflicts(points, rank, vertices, neighbors, u, site, w):
-                        marks[u] = stamp
-                        if size == len(cavity):
-                            state[STAMP] += 1
-                            return FULL
-                        cavity[size] = u
-                        size += 1
-                        continue
-                    marks[u] = -stamp
-                if facets == len(rim):
-                    state[STAMP] += 1
-                    return FULL
-                rim[facets] = 4 * t + k
-                facets += 1
-        if state[SLOTS] + max(0, facets - state[FREE]) > capacity or state[FREE] + size > len(free):
-            state[STAMP] += 1
-            return FULL
+                prefetch(radii, numba.int64(mesh[soon + 4 + k] & np.uint32(0xFFFFFFFC)) << 1)
+        for k in range(4):
+            step = numba.int64(mesh[8 * t + 4 + k])
+            u = step >> 2
+            high = radii[8 * u + 7]
+            if high >= 0:  # not in the cavity yet
+                tested += 1
+                dx, dy, dz = spheres[4 * u] - x, spheres[4 * u + 1] - y, spheres[4 * u + 2] - z
+                squared = dx * dx + dy * dy + dz * dz
+                if squared > high or not (squared < radii[8 * u + 6] or conflicts(points, mesh, u, site, w)):
+                    rim[0, facets] = mesh[8 * t | k ^ 1]
+                    rim[1, facets] = mesh[8 * t | k ^ 2]
+                    rim[2, facets] = mesh[8 * t | k ^ 3]
+                    outer[facets] = step
+                    facets += 1
+                elif whole or owns_all(mesh, u, low, length, n):
+                    radii[8 * u + 7] = -high
+                    cavity[size] = u
+                    prefetch(mesh, 8 * u)
+                    size += 1
+                else:
+                    facets = -1
+                    break
+    return size, facets, tested
 
-        # the star: a tetrahedron from the site to each facet of the cavity's boundary
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, slack, reach, w):
+    """Insert the sites todo[state[NEXT]], ... before state[STOP] that the thread can; see `ownership`.
+
+    Those that it cannot go to the front of ``todo``, state[DEFERRED] of them. Returns `DONE`, or what is
+    short; then nothing is half done: supply it and call again. ``points``, ``rows`` and ``labels`` are
+    views of one array, so are ``spheres`` and ``radii``; see `layout`.
+    """
+    cavity, rim, outer, near, rel, edges, keys, values = scratch
+    p, q, r, slots = rim[0], rim[1], rim[2], rim[3]
+    xs, ys, zs, lengths = rel[0], rel[1], rel[2], rel[3]
+    n, low, length = state[SITES], state[LOW], state[LENGTH]
+    free, free_count, fresh, fresh_end = state[FREE], state[FREE_COUNT], state[FRESH], state[FRESH_END]
+    following, stop, deferred, last = state[NEXT], state[STOP], state[DEFERRED], state[LAST]
+    walked = tested = created = 0
+    result = DONE
+    while following < stop:
+        site = numba.int64(todo[following])
+        x, y, z = rows[4 * site], rows[4 * site + 1], rows[4 * site + 2]
+        last, found, steps = walk(points, rows, mesh, last, site, low, length, n, slack, w)
+        walked += steps
+        size, facets = 0, -1
+        if found:
+            size, facets, tests = _search(
+                points, mesh, spheres, radii, last, site, x, y, z, low, length, n, cavity, rim, outer, w
+            )
+            tested += tests
+        if facets == -2:
+            result = NEEDS_SCRATCH
+        elif facets > size + free_count + (fresh_end - fresh):
+            result = NEEDS_SLOTS
+        if facets < 0 or result != DONE:
+            for i in range(size):
+                c = numba.int64(cavity[i])
+                radii[8 * c + 7] = abs(radii[8 * c + 7])
+            if result != DONE:
+                break
+            todo[deferred] = site
+            deferred += 1
+            following += 1
+            continue
+
+        count = number_vertices(rows, labels, x, y, z, rim, facets, near, rel)
         for f in range(facets):
-            t, k = rim[f] >> 2, rim[f] & 3
-            if state[FREE] > 0:
-                state[FREE] -= 1
-                new = free[state[FREE]]
+            # the slots of the cavity first, which are in the cache
+            if f < size:
+                new = numba.int64(cavity[f])
+            elif free_count > 0:
+                new = free
+                free = numba.int64(mesh[8 * new + 4])
+                free_count -= 1
             else:
-                new = state[SLOTS]
-                state[SLOTS] += 1
-            for i in range(4):
-                vertices[new, i] = vertices[t, i]
-                neighbors[new, i] = UNKNOWN
-            vertices[new, k] = site
-            marks[new] = 0
-            outer = neighbors[t, k]
-            link(neighbors, new, k, outer >> 2, outer & 3)
-            made[4 * t + k] = new
-        for f in range(facets):
-            t, k = rim[f] >> 2, rim[f] & 3
-            new = made[4 * t + k]
-            for j in range(4):
-                if neighbors[new, j] != UNKNOWN:
-                    continue  # the outer one, or found from its other side
-                # Turn about the edge that facets j and k of t share, through the cavity, to its boundary.
-                # The star tetrahedron there has the edge and the site too; its fourth vertex is `turning`.
-                turning = vertices[t, k]
-                last, leave = t, j
-                step = neighbors[t, j]
-                while marks[step >> 2] == stamp:
-                    last = step >> 2
-                    leave = 0
-                    while vertices[last, leave] != turning:
-                        leave += 1
-                    turning = vertices[last, step & 3]
-                    step = neighbors[last, leave]
-                other = made[4 * last + leave]
-                for i in range(4):
-                    if vertices[other, i] == turning:
-                        link(neighbors, new, j, other, i)
-        for i in range(size):
-            vertices[cavity[i], 0] = DEAD
-            free[state[FREE]] = cavity[i]
-            state[FREE] += 1
-        state[LAST] = made[rim[0]]
-        state[CREATED] += facets
-        state[NEXT] += 1
-    return DONE
-
-
-@numba.njit(cache=True)
-def compact(vertices, neighbors, slots):
-    """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4), -1 beyond the hull."""
-    number = np.full(slots, -1, np.int32)
-    m = 0
-    for t in range(slots):
-        v = vertices[t]
-        if v[0] != DEAD and v[0] != INFINITE and v[1] != INFINITE and v[2] != INFINITE and v[3] != INFINITE:
-            number[t] = m
-            m += 1
-    simplices = np.empty((m, 4), np.int32)
-    adjacent = np.empty((m, 4), np.int32)
-    for t in range(slots):
-        s = number[t]
-        if s >= 0:
-            for k in range(4):
-                simplices[s, k] = vertices[t, k]
-                adjacent[s, k] = number[neighbors[t, k] >> 2]
-    return simplices, adjacent
+                new = fresh
+                fresh += 1
+            slots[f] = new
+            mesh[8 * new] = site
+            mesh[8 * new + 1] = near[numba.int64(p[f])]
+            mesh[8 * new + 2] = near[numba.int64(q[f])]
+            mesh[8 * new + 3] = near[numba.int64(r[f])]
+            out = numba.int64(outer[f])
+            mesh[8 * new + 4] = out
+            mesh[8 * (out >> 2) + 4 + (out & 3)] = new << 2
+        for f in range(facets, size):
+            c = numba.int64(cavity[f])
+            mesh[8 * c] = DEAD
+            mesh[8 * c + 4] = free
+            free = c
+            free_count += 1
+        if count <= 1 << NARROW:
+            link_narrow(mesh, p, q, r, slots, facets, edges)
+        else:
+            link_wide(mesh, p, q, r, slots, facets, keys, values)
+        round_spheres(xs, ys, zs, lengths, p, q, r, slots, facets, x, y, z, reach, spheres, radii)
+        last = numba.int64(slots[0])
+        created += facets
+        following += 1
+    state[FREE], state[FREE_COUNT], state[FRESH] = free, free_count, fresh
+    state[NEXT], state[DEFERRED], state[LAST] = following, deferred, last
+    state[WALKED] += walked
+    state[TESTED] += tested
+    state[CREATED] += created
+    return result

@@ -1,4 +1,4 @@
-"""Exact insertion from beginning to end: order, first tetrahedron, insertion in stretches, compaction."""
+"""Exact insertion from beginning to end: order, first tetrahedron, rounds, compaction."""
 
 from __future__ import annotations
 
@@ -6,16 +6,22 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 
-from ..predicates import work_array
-from .first import about_one, first_tetrahedron
-from .kernel import CREATED, DONE, FREE, INFINITE, LAST, NEXT, SLOTS, TESTED, WALKED, compact, insert
-from .order import insertion_order, morton_codes
+from .._errors import DegenerateInputError
+from .compaction import count_finite, number_finite, write_finite
+from .crew import LEAST_PIECE, Crew, available_cores
+from .first import first_tetrahedron
+from .kernel import FRESH, FRESH_END
+from .layout import DEAD, aligned
+from .order import along_curve, insertion_rounds, separate_copies
+from .store import LARGEST_BLOCK, Store
 
-SLOTS_PER_SITE = 8  # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
-MOST_FACETS = 2**31 - 1  # facets are named by int32
+# finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
+SLOTS_PER_SITE = 8
 STRETCH = 100_000  # sites between two reports
+SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
 
 @dataclass
@@ -24,96 +30,113 @@ class Outcome:
 
     simplices: np.ndarray  # int32 (m, 4)
     neighbors: np.ndarray  # int32 (m, 4)
+    duplicates: np.ndarray  # int32 (k, 2)
     walked: int
     tested: int
     created: int
+    threads: int
+    deferred: int
     seconds: dict[str, float]
 
 
 def triangulate(
-    sites: np.ndarray, seed: int = 0, report: Callable[[int, int], None] | None = None
+    sites: np.ndarray,
+    seed: int = 0,
+    threads: int | None = None,
+    report: Callable[[int, int], None] | None = None,
 ) -> Outcome:
-    """Triangulate distinct sites, float64 (n, 3), in lexicographic order; exactly.
+    """Triangulate sites, float64 (n, 3), exactly.
 
-    The order of the rows is that of the symbolic perturbation. ``report(inserted, slots)`` is called after
-    every stretch of sites. Fast if they are scaled so that the greatest coordinate is about 1.
+    ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
+    greatest coordinate is about 1. With ``threads`` of None there are as many as cores, or fewer where more
+    do not pay.
 
     Raises
     ------
     DegenerateInputError
         If the sites span no volume.
     """
+    if threads is None:
+        threads = max(1, min(available_cores(), len(sites) // (8 * LEAST_PIECE)))
+    n = 0
+    reported = 0
+
+    def each_stretch(inserted: int, slots: int) -> None:
+        nonlocal reported
+        if report is not None and (inserted // STRETCH > reported // STRETCH or inserted == n > reported):
+            reported = inserted
+            report(n - inserted, slots)
+
     seconds = {}
-    begun = time.perf_counter()
-    # the curve needs differences that do not overflow; what they lose by rounding costs time at most
-    along_curve = np.argsort(morton_codes(about_one(sites)), kind="stable")
-    points = np.ascontiguousarray(sites[along_curve])
-    rank = along_curve.astype(np.int64)
-    n = len(points)
-    order = insertion_order(n, seed)
-    first = first_tetrahedron(points, int(order[0]))
-    order = np.ascontiguousarray(order[~np.isin(order, first)])
-    seconds["order"] = time.perf_counter() - begun
+    with Crew(threads, each_stretch) as crew:
+        begun = time.perf_counter()
+        order = along_curve(sites, crew.in_pieces)
+        n, duplicates = separate_copies(sites, order)
+        original = order[:n].astype(np.int32)
+        del order
+        rows = aligned(4 * n, np.float64)
+        crew.in_pieces(lambda i, j: _gather(sites, original, rows, i, j), n)
+        first = _first(rows.reshape(n, 4)[:, :3])
+        todo, ends = insertion_rounds(n, seed, first)
+        seconds["order"] = time.perf_counter() - begun
 
-    begun = time.perf_counter()
-    store = _Store(first, SLOTS_PER_SITE * n + 64)
-    w = work_array(points)
-    while store.state[NEXT] < len(order):
-        stop = min(int(store.state[NEXT]) // STRETCH * STRETCH + STRETCH, len(order))
-        if insert(points, rank, order, store.arrays, store.state, stop, w) != DONE:
-            store.grow()
-        elif report is not None:
-            report(int(store.state[NEXT]) + len(first), int(store.state[SLOTS] - store.state[FREE]))
-    seconds["insertion"] = time.perf_counter() - begun
+        begun = time.perf_counter()
+        block = min(LARGEST_BLOCK, 64 + n // threads)
+        store = Store(first, SLOTS_PER_SITE * n + 64 + threads * block, block)
+        crew.begin(rows, store, len(first))
+        begin = 0
+        for end in ends:
+            crew.insert_round(todo[begin:end])
+            begin = end
+        each_stretch(n, crew.slots())
+        seconds["insertion"] = time.perf_counter() - begun
 
-    begun = time.perf_counter()
-    simplices, neighbors = compact(store.arrays[0], store.arrays[1], store.state[SLOTS])
-    simplices = along_curve.astype(np.int32)[simplices]
-    seconds["compaction"] = time.perf_counter() - begun
-    state = store.state
-    return Outcome(simplices, neighbors, int(state[WALKED]), int(state[TESTED]), int(state[CREATED]), seconds)
+        begun = time.perf_counter()
+        mesh = store.mesh.reshape(-1, 8)
+        for worker in crew.workers:
+            mesh[worker.state[FRESH] : worker.state[FRESH_END], 0] = DEAD
+        simplices, neighbors = _compact(crew, store, original)
+        seconds["compaction"] = time.perf_counter() - begun
+        walked, tested, created = crew.counts()
+    return Outcome(simplices, neighbors, duplicates, walked, tested, created, threads, crew.deferred, seconds)
 
 
-class _Store:
-    """The arrays of a growing triangulation, begun with one tetrahedron and the four ghosts around it."""
+@numba.njit(nogil=True, cache=True)
+def _gather(sites, original, rows, begin, end):
+    for i in range(begin, end):
+        for k in range(3):
+            rows[4 * i + k] = sites[original[i], k]
+        rows[4 * i + 3] = 0.0
 
-    def __init__(self, first: np.ndarray, slots: int) -> None:
-        vertices = np.empty((slots, 4), np.int32)
-        neighbors = np.empty((slots, 4), np.int32)
-        vertices[0] = first
-        for k in range(4):
-            vertices[1 + k] = first
-            vertices[1 + k, k] = INFINITE
-            # beyond the facet orientation is reversed, so two of its vertices change places
-            i, j = (k + 1) % 4, (k + 2) % 4
-            vertices[1 + k, [i, j]] = vertices[1 + k, [j, i]]
-        facets: dict[frozenset[int], list[tuple[int, int]]] = {}
-        for t in range(5):
-            for k in range(4):
-                facets.setdefault(frozenset(np.delete(vertices[t], k).tolist()), []).append((t, k))
-        for (t, k), (u, j) in facets.values():
-            neighbors[t, k], neighbors[u, j] = 4 * u + j, 4 * t + k
-        self.state = np.zeros(8, np.int64)
-        self.state[SLOTS] = 5
-        self.state[LAST] = 0
-        self.arrays: tuple[np.ndarray, ...] = (
-            vertices,
-            neighbors,
-            np.empty(slots, np.int32),  # free
-            np.zeros(slots, np.int32),  # marks
-            np.empty(4 * slots, np.int32),  # made
-            np.empty(1 << 16, np.int32),  # cavity
-            np.empty(1 << 17, np.int32),  # rim
-        )
 
-    def grow(self) -> None:
-        """Twice the memory, with what is there."""
-        if 8 * len(self.arrays[0]) > MOST_FACETS:
-            msg = "the triangulation has more tetrahedra than 32-bit numbers can name"
-            raise ValueError(msg)
-        longer = []
-        for array in self.arrays:
-            new = np.zeros((2 * len(array), *array.shape[1:]), array.dtype)
-            new[: len(array)] = array
-            longer.append(new)
-        self.arrays = tuple(longer)
+def _first(points: np.ndarray) -> np.ndarray:
+    """The first tetrahedron, of a sample of the sites if that spans a volume."""
+    step = len(points) // SAMPLE
+    if step > 1:
+        try:
+            return first_tetrahedron(np.ascontiguousarray(points[::step]), 0) * step
+        except DegenerateInputError:
+            pass
+    return first_tetrahedron(np.ascontiguousarray(points), 0)
+
+
+def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
+    mesh, slots = store.mesh, store.used
+    number = np.empty(slots, np.int32)
+    pieces: dict[int, int] = {}
+
+    def count(begin: int, end: int) -> None:
+        pieces[begin] = count_finite(mesh, begin, end)
+
+    crew.in_pieces(count, slots)
+    begins = sorted(pieces)
+    total = np.cumsum([0] + [pieces[b] for b in begins])
+    firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
+    m = int(total[-1])
+    crew.in_pieces(lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
+    # the spheres have served; the result takes their memory, which is there and no less
+    result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
+    simplices, neighbors = result[0], result[1]
+    crew.in_pieces(lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
+    return simplices, neighbors

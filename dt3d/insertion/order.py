@@ -1,45 +1,164 @@
-"""The order of insertion: random rounds that double in size, each along a space-filling curve.
+"""The order of sites in memory and of their insertion.
 
-N. Amenta, S. Choi, G. Rote: Incremental constructions con BRIO. SoCG 2003. The rounds keep the expected
-cost of a randomised insertion; the Morton curve keeps consecutive sites, and their tetrahedra, near each
-other in memory.
+In memory sites lie along a Hilbert curve, where equal sites are neighbours and are found. They are
+inserted in random rounds, each several times as large as all before it, along the curve within (N. Amenta,
+S. Choi, G. Rote: Incremental constructions con BRIO. SoCG 2003): the rounds keep the expected cost of a
+randomised insertion, the curve keeps consecutive sites, and their tetrahedra, near each other in memory.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import numba
 import numpy as np
 
-BITS = 21  # a coordinate, so that three fit into a 64-bit code
+from .curve import hilbert_keys
+
+ROUND_BITS = 2  # a site is in the last round unless as many bits of its hash are zero, and so on
 SMALLEST_ROUND = 64
+MOST_BITS = 21  # of a coordinate's place on the curve
+SHORT_RUN = 128  # sites in one cell that are sorted by coordinates; more are placed on a finer curve
+LEAST_EXTENT = 2.0**-900  # whose reciprocal does not overflow
+GREATEST_EXTENT = 2.0**900
 
 
-def _spread(x: np.ndarray) -> np.ndarray:
-    """The 21 low bits of each word, two zero bits between neighbours."""
-    x = x & np.uint64(0x1FFFFF)
-    for shift, mask in (
-        (32, 0x1F00000000FFFF), (16, 0x1F0000FF0000FF), (8, 0x100F00F00F00F00F),
-        (4, 0x10C30C30C30C30C3), (2, 0x1249249249249249),
-    ):  # fmt: skip
-        x = (x | x << np.uint64(shift)) & np.uint64(mask)
-    return x
+def along_curve(
+    sites: np.ndarray, in_pieces: Callable[[Callable[[int, int], None], int], None]
+) -> np.ndarray:
+    """The rows of sites float64 (n, 3) along a Hilbert curve, int64 (n,); equal sites together, by index.
 
-
-def morton_codes(sites: np.ndarray) -> np.ndarray:
-    """Positions of sites (n, 3) along the Morton curve of their bounding box, uint64 (n,)."""
-    low = sites.min(axis=0)
-    extent = max(float((sites.max(axis=0) - low).max()), np.finfo(float).tiny)
-    cells = np.minimum((sites - low) / extent * 2.0**BITS, 2.0**BITS - 1).astype(np.uint64)
-    x, y, z = (_spread(cells[:, k]) for k in range(3))
-    return x | y << np.uint64(1) | z << np.uint64(2)
-
-
-def insertion_order(n: int, seed: int = 0) -> np.ndarray:
-    """Indices 0 .. n-1 of sites that are in Morton order, in rounds; int32 (n,).
-
-    Each site is in the last round with probability 1/2, in the one before with 1/4, and so on; within a
-    round the sites keep their order.
+    ``in_pieces(work, n)`` calls ``work(begin, end)`` for all of range(n), in pieces, at the same time
+    perhaps.
     """
-    rounds = max(1, int(np.log2(max(n, 1) / SMALLEST_ROUND)) + 1) if n > SMALLEST_ROUND else 1
-    back = np.random.default_rng(seed).geometric(0.5, n)  # rounds from the end, from 1
-    level = np.maximum(rounds - back, 0)
-    return np.argsort(level, kind="stable").astype(np.int32)
+    n = len(sites)
+    low = sites.min(axis=0)
+    extent = float((sites.max(axis=0) - low).max())
+    if not extent < GREATEST_EXTENT:
+        return np.lexsort(sites.T[::-1])
+    if not extent:
+        return np.arange(n)
+    if extent < LEAST_EXTENT:
+        return along_curve(np.ldexp(sites - low, -int(np.frexp(extent)[1])), in_pieces)
+    index_bits = max(1, int(n - 1).bit_length())
+    bits = min(MOST_BITS, (63 - index_bits) // 3)
+    keys = np.empty(n, np.int64)
+    in_pieces(lambda i, j: hilbert_keys(sites, low, 2.0**bits / extent, bits, index_bits, i, j, keys), n)
+    keys.sort()
+    long_runs = np.empty((n // SHORT_RUN + 1, 2), np.int64)
+    count = _sort_short_runs(sites, keys, index_bits, long_runs)
+    for i, j in long_runs[:count]:
+        keys[i:j] = keys[i:j][along_curve(sites[keys[i:j]], in_pieces)]
+    return keys
+
+
+@numba.njit(nogil=True, cache=True)
+def _sort_short_runs(sites, keys, index_bits, long_runs):
+    """Replace keys by indices, sorted by coordinates within short runs of one position; returns the long
+    ones."""
+    n, mask, count = len(keys), (1 << index_bits) - 1, 0
+    i = 0
+    while i < n:
+        position = keys[i] >> index_bits
+        j = i
+        while j < n and keys[j] >> index_bits == position:
+            site = keys[j] & mask
+            # insertion sort, which leaves equal sites in the order of their indices
+            k = j
+            if j - i < SHORT_RUN:
+                while k > i and _before(sites, site, keys[k - 1]):
+                    keys[k] = keys[k - 1]
+                    k -= 1
+            keys[k] = site
+            j += 1
+        if j - i > SHORT_RUN:
+            keys[i:j].sort()
+            long_runs[count, 0], long_runs[count, 1] = i, j
+            count += 1
+        i = j
+    return count
+
+
+@numba.njit(cache=True)
+def _before(sites, a, b):
+    for k in range(3):
+        if sites[a, k] != sites[b, k]:
+            return sites[a, k] < sites[b, k]
+    return False
+
+
+@numba.njit(nogil=True, cache=True)
+def separate_copies(sites, order):
+    """Move the first of equal sites to the front of ``order``, as `along_curve` gave it; returns their
+    number.
+
+    Also the pairs (a later copy, the first one), int32 (k, 2), by the index of the copy.
+    """
+    n = len(order)
+    distinct = 0
+    copies = 0
+    for i in range(n):
+        if i == 0 or not _equal(sites, order[i], order[i - 1]):
+            distinct += 1
+    pairs = np.empty((n - distinct, 2), np.int32)
+    distinct = 0
+    previous = -1
+    for i in range(n):
+        site = order[i]
+        if i > 0 and _equal(sites, site, previous):
+            pairs[copies, 0], pairs[copies, 1] = site, order[distinct - 1]
+            copies += 1
+        else:
+            order[distinct] = site
+            distinct += 1
+        previous = site
+    return distinct, pairs[np.argsort(pairs[:, 0])]
+
+
+@numba.njit(cache=True)
+def _equal(sites, a, b):
+    return sites[a, 0] == sites[b, 0] and sites[a, 1] == sites[b, 1] and sites[a, 2] == sites[b, 2]
+
+
+@numba.njit(nogil=True, cache=True)
+def insertion_rounds(n, seed, left_out):
+    """Sites 0 .. n-1 without four in rounds, ascending within each: uint32 (n - 4,), and where each round
+    ends.
+
+    Each site is in the last round with probability 3/4, in the one before with 3/16, and so on; the first
+    has about `SMALLEST_ROUND`.
+    """
+    rounds = 1
+    while n >> (ROUND_BITS * rounds) > SMALLEST_ROUND:
+        rounds += 1
+    level = np.empty(n, np.uint8)
+    ends = np.zeros(rounds + 1, np.int64)
+    for i in range(n):
+        back = 0
+        h = _mixed(np.uint64(i) + (np.uint64(seed) << np.uint64(32)))
+        while back < rounds - 1 and h & np.uint64((1 << ROUND_BITS) - 1) == 0:
+            h >>= np.uint64(ROUND_BITS)
+            back += 1
+        level[i] = rounds - 1 - back
+    for site in left_out:
+        level[site] = 255
+    for i in range(n):
+        if level[i] < 255:
+            ends[level[i] + 1] += 1
+    ends = np.cumsum(ends)
+    order = np.empty(n - len(left_out), np.uint32)
+    place = ends[:-1].copy()
+    for i in range(n):
+        if level[i] < 255:
+            order[place[level[i]]] = i
+            place[level[i]] += 1
+    return order, ends[1:]
+
+
+@numba.njit(inline="always", cache=True)
+def _mixed(x):
+    """A number whose bits all depend on all bits of x (the finaliser of S. Vigna's splitmix64)."""
+    x = (x + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
+    x = (x ^ x >> np.uint64(30)) * np.uint64(0xBF58476D1CE4E5B9)
+    x = (x ^ x >> np.uint64(27)) * np.uint64(0x94D049BB133111EB)
+    return x ^ x >> np.uint64(31)

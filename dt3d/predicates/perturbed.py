@@ -15,37 +15,43 @@ from .filtered import in_sphere, orient3d
 
 
 @numba.njit(cache=True)
-def inside(points, rank, v, site, w):
-    """Whether a site is inside the perturbed circumsphere of the positive tetrahedron v, four sites.
-
-    ``rank`` holds the place of each site in the lexicographic order of coordinates.
-    """
+def inside(points, v, site, w):
+    """Whether a site is inside the perturbed circumsphere of the positive tetrahedron v, four sites."""
     sign = in_sphere(points, v[0], v[1], v[2], v[3], site, w)
     if sign != 0:
         return sign > 0
-    return _inside_tied(points, rank, v, site, w)
+    return inside_tied(points, v, site, w)
 
 
 @numba.njit(cache=True)
-def _inside_tied(points, rank, v, site, w):
+def inside_tied(points, v, site, w):
     """The perturbed in-sphere test of a site on the circumsphere of tetrahedron v, a tuple of four sites.
 
     The lifted site is below the hyperplane of the lifted vertices iff e_p < sum of l_i e_i, with its
-    barycentric coordinates l_i. Of the five in the order of `rank`, each e infinitely larger than the next,
+    barycentric coordinates l_i. Of the five in lexicographic order, each e infinitely larger than the next,
     the first whose coefficient is not zero decides.
     """
     done = -1
     while True:
-        first, least = 4, rank[site]
+        first, least = 4, site
         for i in range(4):
-            if done < rank[v[i]] < least:
-                first, least = i, rank[v[i]]
+            if (done < 0 or before(points, done, v[i])) and before(points, v[i], least):
+                first, least = i, v[i]
         if first == 4:
             return False
         sign = orientation_with(points, v, first, site, w)
         if sign != 0:
             return sign > 0
         done = least
+
+
+@numba.njit(cache=True)
+def before(points, i, j):
+    """Whether row i of ``points`` precedes row j in the lexicographic order of coordinates."""
+    for k in range(3):
+        if points[i, k] != points[j, k]:
+            return points[i, k] < points[j, k]
+    return False
 
 
 @numba.njit(cache=True)

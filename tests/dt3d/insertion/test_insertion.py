@@ -1,11 +1,11 @@
-"""Exact insertion: against SciPy, its memory, its order and what it counts."""
+"""Exact insertion: against SciPy, its memory and what it counts."""
 
 import numpy as np
 import pytest
 import scipy.spatial
 
 import dt3d
-from dt3d.insertion import loop, order
+from dt3d.insertion import loop
 
 from ..exact import canonical, check_indices, check_neighbors, validate
 from ..families import skew_lines
@@ -36,15 +36,3 @@ def test_statistics_and_phases():
     assert tri.stats.created < tri.stats.tested
     assert list(tri.stats.seconds) == ["order", "insertion", "compaction", "total"]
     assert (tri.iteration == 1).all()
-
-
-def test_the_order_of_insertion():
-    n = 10_000
-    sequence = order.insertion_order(n)
-    assert sorted(sequence.tolist()) == list(range(n))
-    turns = np.flatnonzero(np.diff(sequence) < 0)  # between rounds, each of which ascends
-    sizes = np.diff(np.concatenate([[0], turns + 1, [n]]))
-    assert (np.abs(sizes[1:] - np.cumsum(sizes)[:-1]) < 6 * np.sqrt(np.cumsum(sizes)[:-1])).all()
-    codes = order.morton_codes(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1.0], [1, 1, 1]]))
-    assert (np.diff(codes.astype(object)) > 0).all()
-    assert codes[-1] == 2**63 - 1

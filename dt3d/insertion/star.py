@@ -1,0 +1,94 @@
+"""The star of a new site: a tetrahedron to every facet of the cavity, each in its place among the
+others."""
+
+from __future__ import annotations
+
+import numba
+
+from .layout import INFINITE
+
+NARROW = 6  # a star of up to 2^6 vertices is linked through a table of all edges
+
+
+@numba.njit(inline="always", cache=True, error_model="numpy")
+def number_vertices(rows, labels, x, y, z, rim, facets, near, rel):
+    """Replace the vertices of the facets by 0, 1, 2, ...; returns how many there are.
+
+    ``near`` gets the vertices, the infinite one first, ``rel`` their coordinates relative to x, y, z and
+    the squared lengths. A label is valid if ``near`` agrees with it, so nothing has to be cleared.
+    """
+    count = 1
+    for f in range(facets):
+        for i in range(3):
+            v = numba.int64(rim[i, f])
+            label = 0
+            if v != INFINITE:
+                label = numba.int64(labels[8 * v + 6])
+                if label >= count or numba.int64(near[label]) != v:
+                    label = count
+                    near[count] = v
+                    labels[8 * v + 6] = count
+                    vx, vy, vz = rows[4 * v] - x, rows[4 * v + 1] - y, rows[4 * v + 2] - z
+                    rel[0, count], rel[1, count], rel[2, count] = vx, vy, vz
+                    rel[3, count] = vx * vx + vy * vy + vz * vz
+                    count += 1
+            rim[i, f] = label
+    return count
+
+
+@numba.njit(inline="always", cache=True, error_model="numpy")
+def link_narrow(mesh, p, q, r, slots, facets, edges):
+    """Make neighbours of star tetrahedra that share an edge of the rim, in a table of directed edges.
+
+    The facet opposite p belongs to the directed edge (q, r) as seen from the site, and to (r, q) as seen
+    from the other tetrahedron that has it.
+    """
+    for f in range(facets):
+        i, j, k = numba.int64(p[f]), numba.int64(q[f]), numba.int64(r[f])
+        t = numba.int64(slots[f]) << 2
+        edges[j << NARROW | k] = t | 1
+        edges[k << NARROW | i] = t | 2
+        edges[i << NARROW | j] = t | 3
+    for f in range(facets):
+        i, j, k = numba.int64(p[f]), numba.int64(q[f]), numba.int64(r[f])
+        t = 8 * numba.int64(slots[f])
+        mesh[t + 5] = edges[k << NARROW | j]
+        mesh[t + 6] = edges[i << NARROW | k]
+        mesh[t + 7] = edges[j << NARROW | i]
+
+
+@numba.njit(cache=True, error_model="numpy")
+def link_wide(mesh, p, q, r, slots, facets, keys, values):
+    """The same for any number of vertices, in a hash table of a power of two slots, over 3 * facets."""
+    size = 64
+    while size < 6 * facets:
+        size *= 2
+    keys[:size] = -1
+    for f in range(facets):
+        for i in range(3):
+            key = _edge(p[f], q[f], r[f], i)
+            h = _first_slot(key, size)
+            while keys[h] >= 0:
+                h = (h + 1) & (size - 1)
+            keys[h] = key
+            values[h] = slots[f] << 2 | (i + 1)
+    for f in range(facets):
+        for i in range(3):
+            key = _edge(p[f], q[f], r[f], i)
+            key = (key & 0xFFFFFFFF) << 32 | key >> 32
+            h = _first_slot(key, size)
+            while keys[h] != key:
+                h = (h + 1) & (size - 1)
+            mesh[8 * numba.int64(slots[f]) + 5 + i] = values[h]
+
+
+@numba.njit(inline="always", cache=True)
+def _edge(p, q, r, i):
+    """The directed edge opposite the i-th of three vertices."""
+    a, b = (q, r) if i == 0 else ((r, p) if i == 1 else (p, q))
+    return numba.int64(a) << 32 | numba.int64(b)
+
+
+@numba.njit(inline="always", cache=True)
+def _first_slot(key, size):
+    return ((key * 0x9E3779B97F4A7C1) >> 20) & (size - 1)
