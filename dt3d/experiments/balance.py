@@ -171,9 +171,9 @@ def balance(
     for name, searched in examined.items():
         console.print(f"{name}: the search itself examined {searched:.1f} sites an expansion.")
     console.print(
-        "Requests and warrants share out the sites of uniform cells evenly also where sites cluster; what "
-        "they cannot mend is the work itself, since a few cells hold most sites. Where cells fill unevenly, the "
-        "search takes a tree of boxes instead."
+        "Requests and warrants share out the sites of uniform cells evenly also where sites cluster; "
+        "what they cannot mend is the work itself, since a few cells hold most sites. Where cells fill "
+        "unevenly, the search takes a tree of boxes instead."
     )
     write_csv(out / "balance.csv", ["sites", "scheme", "busiest", "lock_step", "sites_an_expansion"], lines)
     figure.savefig(out / "balance.png", dpi=120)
