@@ -9,6 +9,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
+# Files of tests run side by side, one a core; a file stays together, so that what it compiles is compiled once.
+TOGETHER := -n auto --dist loadfile
+
 .PHONY: demo test test-all lint clean
 
 demo: $(READY)
@@ -16,11 +19,11 @@ demo: $(READY)
 
 test: $(READY)
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest $(TOGETHER)
 
 test-all: $(READY)
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest -m "slow or not slow"
+	$(BIN)/python -m pytest $(TOGETHER) -m "slow or not slow"
 
 lint: $(READY)
 	$(BIN)/ruff check .
