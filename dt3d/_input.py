@@ -106,24 +106,10 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
 
 
 def exactly_scaled(sites: np.ndarray) -> np.ndarray:
-    """Sites times a power of two, float64 (n, 3).
+    """Sites times a power of two, float64 (n, 3): the greatest coordinate is about 1, where that is exact.
 
-    Scaling is exact, and every coordinate is in the range of the exact predicates.
-
-    Raises
-    ------
-    ValueError
-        If no power of two brings all coordinates into that range: some is over 2^137 times another.
+    Elsewhere, where coordinates are more than 2^1000 apart in magnitude, the sites themselves.
     """
-    from .predicates import in_range
+    from .predicates import scaled
 
-    greatest = np.abs(sites).max()
-    scaled = np.ldexp(sites, -int(np.frexp(greatest)[1])) if greatest else sites
-    if not in_range(scaled):
-        least = np.abs(sites[sites != 0]).min()
-        msg = (
-            f"coordinates from {least:g} to {greatest:g} in magnitude are too far apart for exact insertion "
-            f"(2^137 is possible); set the small ones to zero, or use method='extrapolation'"
-        )
-        raise ValueError(msg)
-    return scaled
+    return scaled(sites)

@@ -80,7 +80,8 @@ class Delaunay:
     Raises
     ------
     ValueError
-        For input that is not finite, real and of shape (n, 3), and for unknown options.
+        For input that is not finite, real and of shape (n, 3), and for unknown options; by extrapolation also
+        where coordinates differ by less than 2^-200 of the greatest one.
     DegenerateInputError
         If all sites lie on a plane, a line or a point.
     InconsistencyError
@@ -90,6 +91,8 @@ class Delaunay:
     -----
     InconsistencyWarning
         If the result has inconsistencies, or if sites coincide in the working precision only.
+    QuadraticSearchWarning
+        If extrapolation compares each of many faces with thousands of sites, as on one sphere.
 
     Examples
     --------

@@ -14,11 +14,25 @@ from ..predicates import elementwise
 from ..predicates.integers import BITS, limbs_of
 from .buckets import Buckets
 
-# With differences of so many bits the height of a site above a face, a sum of six products of three, is exact.
+# With differences of so many bits the height of a site above a face, a sum of six products of three, is
+# exact.
 LATTICE_BITS = 16
-# The least difference of two coordinates, in units of the greatest, with which no product of the filter underflows:
-# the fourth power, times 2^-53 for what cancels in a normal, is a normal number.
+# The least difference of two coordinates, in units of the greatest, with which no product of the filter
+# underflows: the fourth power, times 2^-53 for what cancels in a normal, is a normal number.
 LEAST_DIFFERENCE = 2.0**-200
+
+
+def check_magnitudes(coordinates: np.ndarray) -> None:
+    """Raise ValueError where products of the filter would under- or overflow."""
+    with np.errstate(over="ignore"):
+        gaps = [np.diff(np.unique(x)) for x in coordinates.T]
+    least = min(float(g.min(initial=np.inf)) for g in gaps)
+    if float(np.abs(coordinates).max()) > 1 or least < LEAST_DIFFERENCE:
+        msg = (
+            "extrapolation takes coordinates whose least difference is at least 2^-200 of the greatest one; "
+            "these are closer. Use method='insertion', without a machine, which takes any"
+        )
+        raise ValueError(msg)
 
 
 @dataclass(frozen=True)
@@ -46,15 +60,6 @@ class ExactSites:
             return False
         values = sum(x.astype(np.int64) << (BITS * k) for k, x in enumerate(self._limbs))
         return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
-
-    @cached_property
-    def filterable(self) -> bool:
-        """Whether floating point may decide anything: not where its products would under- or overflow."""
-        with np.errstate(over="ignore"):
-            gaps = [np.diff(np.unique(x)) for x in self.coordinates.T]
-        least = min(float(g.min(initial=np.inf)) for g in gaps)
-        greatest = float(np.abs(self.coordinates).max())
-        return greatest <= 1.0 and least >= LEAST_DIFFERENCE
 
     @cached_property
     def digits(self) -> tuple[tuple[sv.Vector, ...], ...]:

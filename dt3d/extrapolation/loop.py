@@ -30,7 +30,7 @@ from .dead_faces import (
     open_faces,
 )
 from .decisions import Counts, expand_exactly
-from .exact_sites import ExactSites
+from .exact_sites import ExactSites, check_magnitudes
 from .expansion import Face, expand_perturbed
 from .gift_wrapping import first_facets
 from .points import Point
@@ -93,7 +93,11 @@ def triangulate(
     ------
     InconsistencyError
         If too many tetrahedra contradict each other for the set to be finished.
+    ValueError
+        If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
+    if exact:
+        check_magnitudes(sites)
     clock = _Clock(machine)
     with clock.phase("buckets"):
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))
@@ -182,7 +186,10 @@ def _wrapped_facets(buckets: Buckets) -> Face:
     # a site whose nearest one is so near that all triangles with both look flat waits for others' faces
     facets = sv.pack(facets, facets.c != NO_SITE)
     if not len(facets.a):
-        msg = "no three sites form a triangle that this precision can tell from a flat one"
+        msg = (
+            "no three sites form a triangle that this precision can tell from a flat one; method='insertion' "
+            "needs none"
+        )
         raise InconsistencyError(msg, 0)
     return distinct_facets(facets)
 
@@ -190,8 +197,8 @@ def _wrapped_facets(buckets: Buckets) -> Face:
 def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
     if exact and out.inconsistencies:
         msg = (
-            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: this is "
-            f"an error of dt3d, please report it with the points"
+            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: "
+            f"this is an error of dt3d, please report it with the points"
         )
         raise InconsistencyError(msg, out.inconsistencies)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too

@@ -47,9 +47,9 @@ def triangulate(
 ) -> Outcome:
     """Triangulate sites, float64 (n, 3), exactly.
 
-    ``report(left, slots)`` is called after every stretch of sites. The caller has seen to it that the
-    coordinates are below 1 in magnitude and in the range of the exact predicates. With ``threads`` of None
-    there are as many as cores, or fewer where more do not pay.
+    ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
+    greatest coordinate is about 1. With ``threads`` of None there are as many as cores, or fewer where more
+    do not pay.
 
     Raises
     ------

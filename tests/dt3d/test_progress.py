@@ -7,7 +7,7 @@ import dt3d
 import scanvec as sv
 from dt3d.extrapolation import decisions, loop
 
-from .exact import check_neighbors, validate
+from .exact import check_neighbors
 
 
 def on_sphere(n):
@@ -105,10 +105,9 @@ def test_sites_too_near_for_a_first_facet_end_with_an_error_that_says_so():
     points[:20] *= 1e-170  # squared areas of triangles with two of these underflow
     with pytest.raises(dt3d.InconsistencyError, match=r"sites are in no tetrahedron|inconsistencies|flat"):
         dt3d.Delaunay(points, robustness="perturb")
-    validate(dt3d.Delaunay(points, method="extrapolation"))
 
 
 def test_thousands_on_one_sphere_are_warned_of(monkeypatch):
     monkeypatch.setattr(decisions, "CROWD", 8)
     with pytest.warns(dt3d.QuadraticSearchWarning, match="nearly cospherical .* method='insertion'"):
-        dt3d.Delaunay(on_sphere(300), method="extrapolation")
+        dt3d.Delaunay(on_sphere(100), method="extrapolation")
