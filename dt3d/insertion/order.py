@@ -33,7 +33,8 @@ def along_curve(
     """
     n = len(sites)
     low = sites.min(axis=0)
-    extent = float((sites.max(axis=0) - low).max())
+    with np.errstate(over="ignore"):
+        extent = float((sites.max(axis=0) - low).max())
     if not extent < GREATEST_EXTENT:
         return np.lexsort(sites.T[::-1])
     if not extent:

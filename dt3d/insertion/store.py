@@ -77,9 +77,8 @@ class Worker:
     arithmetic."""
 
     def __init__(self, points: np.ndarray) -> None:
-        n = len(points)
         self.state = np.zeros(STATE, np.int64)
-        self.state[SITES] = self.state[LENGTH] = n
+        self.state[SITES] = self.state[LENGTH] = len(points)
         self.work = work_array(points)
         self.todo = np.empty(0, np.uint32)
         self.short = False  # of memory

@@ -25,8 +25,9 @@ def simplices(d, side, count, seed=0):
 @pytest.mark.parametrize(("d", "module"), [(2, perturbed2d), (3, perturbed)])
 def test_ties_go_as_infinitesimal_heights_do(d, module):
     points, rows = simplices(d, 3, 800)
-    w, rank = work_array(points), np.arange(len(points))
-    got = [module.inside(points, rank, tuple(row[:-1].tolist()), int(row[-1]), w) for row in rows]
+    w = work_array(points)
+    order = [np.arange(len(points))] if d == 2 else []  # in space coordinates are compared
+    got = [module.inside(points, *order, tuple(row[:-1].tolist()), int(row[-1]), w) for row in rows]
     assert got == [inside_perturbed(points[row], row) for row in rows]
     assert 0.2 < np.mean(got) < 0.8
 
@@ -46,8 +47,8 @@ def as_points(digits, rows, vector):
 @pytest.mark.parametrize("machine", [sv.Simulated(processors=4), sv.Device()], ids=["simulated", "device"])
 def test_inside_in_a_map(machine):
     points, rows = simplices(3, 4, 1500)
-    w, rank = work_array(points), np.arange(len(points))
-    want = [perturbed.inside(points, rank, tuple(row[:-1].tolist()), int(row[-1]), w) for row in rows]
+    w = work_array(points)
+    want = [perturbed.inside(points, tuple(row[:-1].tolist()), int(row[-1]), w) for row in rows]
     sites = as_points(limbs_of(points), rows, machine.vector)
     ranks = [machine.vector(np.ascontiguousarray(rows[:, k])) for k in range(5)]
     got = machine.map(inside, sites[:4], tuple(ranks[:4]), sites[4], ranks[4])
