@@ -181,7 +181,7 @@ def _options(
     if method == "auto":
         # below some thousand sites a second thread costs more than it saves
         count = threads or (processors if n > 5000 else 1)
-        return Options("optimistic" if count > 1 else "sequential", count, "brio", "walk", 0, "curve", seed)
+        return Options("optimistic" if count > 1 else "sequential", count, "brio", "walk", 2, "curve", seed)
     if method == "batch":
         count = threads or searching_threads(n, processors) + 1
     else:

@@ -30,6 +30,7 @@ from .store import (
     USED,
     VISITED,
     WAIT_CYCLES,
+    stumble,
 )
 
 
@@ -65,6 +66,7 @@ def run(points, nodes, shared, state, order, by, me, scratch, w):
         t, visited = locate(points, nodes, q, w)
         located = cycles()
         while True:
+            stumble(shared, state, me)
             size, _, count = claim(points, nodes, t, q, me + 1, held, cavity, rim, w)
             if size != BUSY:
                 break
@@ -76,6 +78,7 @@ def run(points, nodes, shared, state, order, by, me, scratch, w):
             t, more = descend(points, nodes, t, q, w)
             visited += more
         claimed = cycles()
+        stumble(shared, state, me)
         f = insert(points, nodes, shared, state, me, t, q, me + 1, w)
         _unlock_star(nodes, f)
         give_back(nodes, held, count)

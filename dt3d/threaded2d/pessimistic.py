@@ -23,8 +23,9 @@ from .store import (
     VISITED,
     WAIT_CYCLES,
     WAITS,
+    stumble,
 )
-from .walk import walk
+from .walk import walk_history
 
 
 @numba.njit(nogil=True, cache=True)
@@ -43,10 +44,11 @@ def run(points, nodes, shared, state, order, by, me, walking, w):
             continue
         begun = cycles()
         if walking:
-            t, visited = walk(points, nodes, state[me, HINT], q, w)
+            t, visited = walk_history(points, nodes, state[me, HINT], q, w)
         else:
             t, visited = locate(points, nodes, q, w)
         located = cycles()
+        stumble(shared, state, me)
         if not compare_and_swap(shared, (CRITICAL, 0), 0, me + 1):
             state[me, WAITS] += 1
             while not compare_and_swap(shared, (CRITICAL, 0), 0, me + 1):
@@ -56,12 +58,13 @@ def run(points, nodes, shared, state, order, by, me, walking, w):
         entered = cycles()
         # what was a leaf before may have children now
         if walking:
-            t, more = walk(points, nodes, t, q, w)
+            t, more = walk_history(points, nodes, t, q, w)
         else:
             t, more = descend(points, nodes, t, q, w)
         state[me, HINT] = insert(points, nodes, shared, state, me, t, q, 0, w)
         release(shared, (CRITICAL, 0))
         by[q] = me
+        stumble(shared, state, me)
         state[me, LOCATION_CYCLES] += located - begun
         state[me, WAIT_CYCLES] += entered - located
         state[me, CHANGE_CYCLES] += cycles() - entered

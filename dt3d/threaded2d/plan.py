@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from ..predicates import work_array
-from . import optimistic, pessimistic, sequential, star
+from . import batch, circumcircle, optimistic, pessimistic, sequential, star
 from .compaction import compact
+from .correction import correct
 from .first import first_triangle
 from .order import along_curve
+from .queue import empty_queue
 from .statistics import Statistics
 from .store import (
     ACCESSES,
@@ -25,9 +27,11 @@ from .store import (
     INSERTED,
     LOCATION_CYCLES,
     NEXT,
+    QUEUE_FILL,
     RETRIES,
     ROOTS,
     STOP,
+    STUMBLE,
     TESTS,
     USED,
     VISITED,
@@ -45,7 +49,11 @@ LOCATIONS = ("dag", "walk")
 
 @dataclass(frozen=True)
 class Options:
-    """What to run, after "auto" and None have been replaced."""
+    """What to run, after "auto" and None have been replaced.
+
+    ``helping`` is the batch method's variant in which searching threads that find the queue full finish locations;
+    with ``stumble`` threads give way at random, once in so many chances.
+    """
 
     method: str
     threads: int
@@ -54,6 +62,8 @@ class Options:
     queue_length: int
     subdivision: str
     seed: int
+    helping: bool = False
+    stumble: int = 0
 
     @property
     def in_place(self) -> bool:
@@ -96,6 +106,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     store = Store(rows, first, options.threads, capacity)
     store.state[: _parts(options), NEXT] = bounds[:-1]
     store.state[: _parts(options), END] = bounds[1:]
+    store.shared[STUMBLE, 0] = options.stumble
     run = _Run(options, store, order)
     ticks, clock = sequential.now(), time.perf_counter()
     run.to_the_end()
@@ -127,6 +138,8 @@ class _Run:
 
     def __init__(self, options: Options, store: Store, order: np.ndarray) -> None:
         self.options, self.store, self.order = options, store, order
+        self.cells = empty_queue(options.queue_length)
+        self.pool = circumcircle.empty_pool(options.threads)
         self.work = [work_array() for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
@@ -159,10 +172,18 @@ class _Run:
             return lambda: pessimistic.run(*common, walking, self.work[k])
         if o.method == "optimistic":
             return lambda: optimistic.run(*common, self.scratch[k], self.work[k])
-        raise NotImplementedError(o.method)
+        if o.method == "circumcircle":
+            return lambda: circumcircle.run(*common, self.pool, walking, self.work[k])
+        if k < o.threads - 1:
+            return lambda: batch.run_searching(*common, self.cells, walking, o.helping, self.work[k])
+        return lambda: batch.run_specialised(*common[:4], k, self.cells, walking, self.work[k])
 
     def correct(self) -> int:
-        return 0
+        """Make up for swaps that were given up, if there can be any; how many were made."""
+        s = self.store
+        if not s.state[:, [EXCEPTIONS, GIVEN_UP]].any():
+            return 0
+        return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work[0])
 
 
 def _statistics(
@@ -194,7 +215,7 @@ def _statistics(
         given_up=int(state[:, GIVEN_UP].sum()),
         corrected=corrected,
         growths=store.growths,
-        queue_fill=0.0,
+        queue_fill=float(state[-1, QUEUE_FILL]) / max(1, int(state[-1, INSERTED])),
         seconds=seconds,
         location_seconds=times(LOCATION_CYCLES),
         change_seconds=times(CHANGE_CYCLES),

@@ -20,7 +20,7 @@ from .store import (
     USED,
     VISITED,
 )
-from .walk import walk
+from .walk import walk_history
 
 # what a thread's run returns
 DONE, STOPPED, FULL = range(3)
@@ -48,7 +48,7 @@ def run(points, nodes, shared, state, order, by, me, walking, w):
             continue
         begun = cycles()
         if walking:
-            t, visited = walk(points, nodes, state[me, HINT], q, w)
+            t, visited = walk_history(points, nodes, state[me, HINT], q, w)
         else:
             t, visited = locate(points, nodes, q, w)
         located = cycles()

@@ -25,6 +25,7 @@ from .store import (
     ROOTS,
     STOP,
     VISITED,
+    stumble,
 )
 from .walk import walk
 
@@ -79,6 +80,7 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
             continue
         t, steps = walk(points, nodes, hint, q, w)
         visited += steps
+        stumble(shared, state, me)
         size, edges, count = claim(points, nodes, t, q, lock, held, cavity, rim, w)
         if size == BUSY:
             give_back(nodes, held, count)
@@ -87,6 +89,7 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
                 give_way()
             hint = t
             continue
+        stumble(shared, state, me)
         fresh = ROOTS + 2 * at
         hint = fill(nodes, q, cavity, size, rim, edges, fresh, me, lock)
         if lock != 0:

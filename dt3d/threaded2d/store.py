@@ -22,7 +22,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from .atomics import add, padded
+from .atomics import add, give_way, padded
 
 INFINITE = -1
 ROOTS = 4
@@ -33,7 +33,7 @@ CHILD = 6
 LOCK = 7
 
 # rows of `shared`, one word each
-USED, STOP, SOFT_LIMIT, CRITICAL = range(4)
+USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE = range(7)
 SHARED_ROWS = 8
 
 BLOCK = 512  # nodes that a thread takes at a time
@@ -44,10 +44,10 @@ NODES_PER_SITE = 12
 # columns of `state`, a row for each thread. First what goes on, then what is counted.
 (
     NEXT, END, BLOCK_AT, BLOCK_END, HINT, RANDOM,
-    PHASE, SITE, NODE, LAST, BLOCKER, BLOCKED_SINCE, CELL,
+    PHASE, SITE, NODE, LAST, BLOCKER, BLOCKED_SINCE, OTHER_SITE, OTHER_NODE,
     INSERTED, VISITED, FLIPS, TESTS, ACCESSES, WAITS, GIVEN_UP, EXCEPTIONS, RETRIES,
-    LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL, FINISHED, BEGUN,
-) = range(28)  # fmt: skip
+    LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL,
+) = range(27)  # fmt: skip
 STATE_COLUMNS = 32
 
 
@@ -79,6 +79,19 @@ def fresh(state, me, shared, count):
     return at
 
 
+@numba.njit(cache=True)
+def stumble(shared, state, me):
+    """Give way at random, once in shared[STUMBLE] calls; never where that is 0. For tests under contention."""
+    if shared[STUMBLE, 0] != 0:
+        x = state[me, RANDOM]
+        x ^= (x << 13) & 0x7FFFFFFFFFFFFFFF
+        x ^= x >> 7
+        x ^= (x << 17) & 0x7FFFFFFFFFFFFFFF
+        state[me, RANDOM] = x
+        if x % shared[STUMBLE, 0] == 0:
+            give_way()
+
+
 class Store:
     """The arrays of one run.
 
@@ -104,6 +117,7 @@ class Store:
         self.nodes = np.zeros((soft + self.reserve if capacity is None else capacity, 8), np.int32)
         write_roots(self.nodes, *(int(v) for v in first))
         self.state = np.zeros((threads, STATE_COLUMNS), np.int64)
+        self.state[:, BLOCKER] = -1
         self.state[:, RANDOM] = np.arange(1, threads + 1) * 0x9E3779B9
         self.shared = padded(SHARED_ROWS)
         self.shared[USED, 0] = ROOTS
