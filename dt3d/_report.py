@@ -68,6 +68,7 @@ def _add_extrapolation(table: Table, stats: Statistics, tetrahedra: int) -> None
     table.add_row("face expansions", f"{stats.face_expansions:,}")
     table.add_row("expansions per tetrahedron", _ratio(stats.face_expansions, tetrahedra))
     table.add_row("sites searched per expansion", _ratio(stats.sites_searched, stats.face_expansions))
+    table.add_row("decided exactly", f"{stats.exact_decisions:,}")
 
 
 def ledger_table(ledger: Any) -> Table:

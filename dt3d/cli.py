@@ -101,7 +101,8 @@ def triangulate(
     source: Path,
     *,
     output: Annotated[Path, Parameter(alias="-o")],
-    method: Literal["extrapolation", "insertion"] = "extrapolation",
+    method: Literal["auto", "insertion", "extrapolation"] = "auto",
+    robustness: Literal["exact", "perturb"] = "exact",
     machine: Literal["device", "simulated"] | None = None,
     processors: int | None = None,
     dtype: Literal["float64", "float32"] | None = None,
@@ -117,14 +118,17 @@ def triangulate(
     output
         The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull.
     method
-        The paper's data-parallel extrapolation, or exact insertion, which is fast.
+        Insertion on this CPU, which is fast, or the paper's data-parallel extrapolation, which a machine or
+        "perturb" asks for. Both find the same tetrahedra.
+    robustness
+        Exact decisions, or the paper's perturbation and its count of inconsistencies.
     machine
         Where the vectors of an extrapolation live: on a device of JAX, or on simulated processors with a
         ledger of their steps.
     processors
         Number of simulated processors (32 if left out).
     dtype
-        Precision of the search.
+        Precision of the perturbed search.
     seed
         Seed of the perturbation.
     picture
@@ -142,7 +146,8 @@ def triangulate(
     console = Console(highlight=False)
     points = read_points(source)
     console.print(f"{len(points):,} points from {source}")
-    tri = _triangulate(console, points, method=method, machine=on, dtype=dtype, seed=seed)
+    options = {"method": method, "robustness": robustness, "machine": on, "dtype": dtype, "seed": seed}
+    tri = _triangulate(console, points, **options)
     console.print(stats_table(tri, str(source)))
     if on is not None and on.ledger is not None:
         console.print(ledger_table(on.ledger))
@@ -240,7 +245,8 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
 
 
 def _triangulate(console: Console, points: Any, **options: Any) -> Any:
-    left = "sites left" if options["method"] == "insertion" else "open faces"
+    inserts = options.get("machine") is None and options.get("robustness") != "perturb"
+    left = "sites left" if inserts and options["method"] != "extrapolation" else "open faces"
     with console.status("triangulating (the first iteration includes compilation)"):
         return dt3d.Delaunay(points, callback=Growth(console, left), **options)
 

@@ -45,8 +45,8 @@ class Delaunay:
     robustness : "exact" or "perturb"
         "exact": all decisions are right, cospherical sites are decided by a symbolic perturbation, and the
         result does not depend on the method, the machine or the order of the sites. "perturb": the paper's
-        random linear perturbation of about 1e-9 decides cospherical sites, in floating point, and a check of the
-        topology counts inconsistencies; by extrapolation only.
+        random linear perturbation of about 1e-9 decides cospherical sites, in floating point, and a check of
+        the topology counts inconsistencies; by extrapolation only.
     machine : scanvec.Machine, optional
         Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
         machines give the same tetrahedra.
@@ -87,6 +87,8 @@ class Delaunay:
     -----
     InconsistencyWarning
         If the result has inconsistencies, or if sites coincide in the working precision only.
+    QuadraticSearchWarning
+        If extrapolation compares each of many faces with thousands of sites, as on one sphere.
 
     Examples
     --------

@@ -64,7 +64,7 @@ def verify(
     Raises
     ------
     ValueError
-        If coordinates are too far apart in magnitude for the exact predicates, or indices are out of range.
+        If a coordinate is not finite, or indices are out of range.
     """
     points, simplices = np.asarray(points, np.float64), np.asarray(simplices, np.int64).reshape(-1, 4)
     if len(simplices) and not 0 <= simplices.min() <= simplices.max() < len(points):
@@ -124,7 +124,7 @@ def _violations(
     # the vertex of the neighbour that the facet does not have
     shared = (other[:, :, None] == simplices[t][:, None, :]).any(axis=2)
     apex = other[np.arange(len(other)), shared.argmin(axis=1)]
-    return _count_inside(sites, rank, simplices[t], apex, perturbed, work_array())
+    return _count_inside(sites, rank, simplices[t], apex, perturbed, work_array(sites))
 
 
 @numba.njit(cache=True)

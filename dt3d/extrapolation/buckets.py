@@ -1,7 +1,7 @@
 """Buckets: the sites, reordered so that sites near each other are neighbours in the list.
 
-Teng et al. 1993, section 4.2, has uniform cells of about eight sites. They serve sites that fill space evenly;
-for clusters, surfaces and the like the same order carries a tree of boxes (`tree`).
+Teng et al. 1993, section 4.2, has uniform cells of about eight sites. They serve sites that fill space
+evenly; for clusters, surfaces and the like the same order carries a tree of boxes (`tree`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 import scanvec as sv
 
-from .boxes import Grid, cell_of, cell_coordinates
+from .boxes import Grid, cell_coordinates, cell_of
 from .points import Point
 from .tree import Tree, build
 

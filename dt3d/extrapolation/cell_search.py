@@ -14,14 +14,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 
 import scanvec as sv
 
-from .boxes import Box, Grid, contains, corners, difference_cell, empty_box, extend, volume
+from .boxes import Box, Grid, containment_box, contains, corners, difference_cell, empty_box, extend, volume
 from .buckets import Buckets, Cells
+from .points import Point
 from .search import LEAST, SITES_PER_WARRANT, Answer, Best, Question, execute, nothing_found
 from .search import _least as least
 
@@ -44,14 +44,17 @@ class Search(NamedTuple):
     rounds: Any
 
 
-def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
-    """The site of least score for each of m queries, a record of vectors of length m."""
+def search(buckets: Buckets, queries: Any, first: tuple[Point, Point], question: Question) -> Answer:
+    """The site of least score for each of m queries, a record of vectors of length m.
+
+    The first round opens the cells of the boxes with the corners ``first``.
+    """
     assert buckets.cells is not None
     machine, cells = buckets.machine, buckets.cells
     steps = _steps_of(question)
-    m = len(jax.tree.leaves(queries)[0])
+    m = len(first[0].x)
     answer = nothing_found(machine, m, buckets.sites.x.dtype)
-    dead, new = machine.map(steps.begin, queries, cells.grid)
+    dead, new = machine.map(_begin, *first, cells.grid)
     state = Search(machine.iota(m), queries, answer, dead, new, machine.full(m, 0, np.int32))
     searched = 0
     while len(state.index):
@@ -94,7 +97,6 @@ def _round(
 class _Steps(NamedTuple):
     """The elementwise steps of a round for one question."""
 
-    begin: Callable
     request: Callable
     conclude: Callable
 
@@ -110,10 +112,6 @@ def _steps_of(question: Question) -> _Steps:
 
 
 def _make_steps(question: Question) -> _Steps:
-    def begin(query: Any, grid: Grid) -> tuple[Box, Box]:
-        new = question.first_box(query, grid)
-        return empty_box(new.x0), new
-
     def request(query: Any, bound: Any, new: Box, dead: Box, k: Any, grid: Grid) -> tuple[Any, Any]:
         i, j, h = difference_cell(new, dead, k)
         low, high = corners(i, j, h, grid)
@@ -130,7 +128,12 @@ def _make_steps(question: Question) -> _Steps:
         new = Box(*(jnp.where(going, g, n) for g, n in zip(new, state.new, strict=True)))
         return Search(state.index, state.query, best, dead, new, rounds), done
 
-    return _Steps(begin, request, conclude)
+    return _Steps(request, conclude)
+
+
+def _begin(low: Point, high: Point, grid: Grid) -> tuple[Box, Box]:
+    new = containment_box(low, high, grid)
+    return empty_box(new.x0), new
 
 
 def _cells_to_open(new: Box, dead: Box) -> Any:

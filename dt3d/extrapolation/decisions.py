@@ -1,8 +1,8 @@
 """Exact face expansions: the filtered search, and exact decisions where it leaves several sites open.
 
-Sites are perturbed symbolically: site p is lifted to height |p|^2 + e_p with infinitesimals e_p. Then each face
-has one right fourth vertex, which depends on nothing but the sites: whoever expands it finds the same one (see
-`dt3d.predicates.perturbed`).
+Sites are perturbed symbolically: site p is lifted to height |p|^2 + e_p with infinitesimals e_p. Then each
+face has one right fourth vertex, which depends on nothing but the sites: whoever expands it finds the same
+one (see `dt3d.predicates.perturbed`).
 """
 
 from __future__ import annotations
@@ -17,12 +17,11 @@ import scanvec as sv
 
 from .._errors import QuadraticSearchWarning
 from .exact_sites import ExactSites
-from .expansion import FILTERED, Face, open_exact_face
+from .expansion import FILTERED, Face, open_exact_face, search_faces
 from .points import Point
-from .search import NO_SITE, Best, search
+from .search import NO_SITE, Best
 from .tree import FANOUT, Request, descend, entry_test, unfold
 from .tree_search import Bounded
-
 
 # Leaves that a face compares exactly, on average, before a warning says so.
 CROWD = 256
@@ -31,9 +30,9 @@ CROWD = 256
 class Expansion(NamedTuple):
     """The outcome of expanding m faces; vectors of length m."""
 
-    site: sv.Vector  # int32; NO_SITE where no site is on the positive side
-    low: sv.Vector  # a lower bound of its signed distance; -inf where exact decisions were needed
-    refuter: sv.Vector  # int32: a site in the plane of the face and inside its perturbed circumcircle, or NO_SITE
+    site: Any  # int32; NO_SITE where no site is on the positive side
+    low: Any  # a lower bound of its signed distance; -inf where exact decisions were needed
+    refuter: Any  # int32: a coplanar site inside the face's perturbed circumcircle, or NO_SITE
 
 
 class Counts(NamedTuple):
@@ -48,9 +47,9 @@ def expand_exactly(exact: ExactSites, faces: Face) -> tuple[Expansion, Counts]:
     """The fourth vertex of each face under the symbolic perturbation."""
     buckets = exact.buckets
     machine, m = buckets.machine, len(faces.a)
-    a, b, c = (sv.get(buckets.sites, v) for v in faces)
-    queries = machine.map(open_exact_face, faces, a, b, c, exact.filterable, exact.lattice)
-    best, searched = search(buckets, queries, FILTERED)
+    corners = [sv.get(buckets.sites, v) for v in faces]
+    queries = machine.map(open_exact_face, faces, *corners, exact.filterable, exact.lattice)
+    best, searched = search_faces(buckets, queries, corners, FILTERED)
     site, low, undecided = machine.map(_conclude, best)
     refuter = machine.full(m, NO_SITE, np.int32)
     index = sv.pack_index(undecided)
@@ -100,8 +99,9 @@ def _warn_of_crowds(requests: Request) -> None:
         faces = int(machine.item(requests.query, -1)) - int(machine.item(requests.query, 0)) + 1
         if n > CROWD * faces:
             msg = (
-                f"some {FANOUT * n // faces} sites are nearly cospherical with each open face, and all are compared "
-                f"exactly: time grows with the square of their number. method='insertion' finishes such sets"
+                f"over {FANOUT * CROWD} sites are nearly cospherical with an open face, on average, and all "
+                f"are compared exactly: time grows with the square of their number. method='insertion' "
+                f"finishes such sets"
             )
             warnings.warn(msg, QuadraticSearchWarning, stacklevel=2)
 
@@ -134,7 +134,8 @@ def _mark(mask: Any, query: Bounded, point: Point, site: Any, exists: Any, k: An
 def _tournament(exact: ExactSites, faces: Face, rivals: Request) -> Request:
     """One site for each face that has any: the one inside whose sphere with the face no other is.
 
-    Neighbours in the list of a face meet, and the winners go on: as many rounds as the logarithm of the longest list.
+    Neighbours in the list of a face meet, and the winners go on: as many rounds as the logarithm of the
+    longest list.
     """
     while True:
         segments = sv.Segments.from_ids(rivals.query)

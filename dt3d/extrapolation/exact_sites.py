@@ -14,10 +14,11 @@ from ..predicates import elementwise
 from ..predicates.integers import BITS, limbs_of
 from .buckets import Buckets
 
-# With differences of so many bits the height of a site above a face, a sum of six products of three, is exact.
+# With differences of so many bits the height of a site above a face, a sum of six products of three, is
+# exact.
 LATTICE_BITS = 16
-# The least difference of two coordinates, in units of the greatest, with which no product of the filter underflows:
-# the fourth power, times 2^-53 for what cancels in a normal, is a normal number.
+# The least difference of two coordinates, in units of the greatest, with which no product of the filter
+# underflows: the fourth power, times 2^-53 for what cancels in a normal, is a normal number.
 LEAST_DIFFERENCE = 2.0**-200
 
 

@@ -1,8 +1,8 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two forms:
-`PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are compared as
-they come; and `FILTERED`, which knows each only between bounds.
+Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two
+forms: `PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are
+compared as they come; and `FILTERED`, which knows each only between bounds.
 """
 
 from __future__ import annotations
@@ -17,10 +17,9 @@ from . import filtered_distance, signed_distance
 from .boxes import Box, Grid
 from .buckets import Buckets
 from .gift_wrapping import squared_distance_to_box
-from .points import Point, add, dot, epsilon, norm, sub
-from .regions import bounding_box, box_towards, cap_box
+from .points import Point, add, bounding_box, dot, epsilon, norm, sub
+from .regions import cap_box
 from .search import Answer, Question, search
-
 
 # Bounds that a tree search tries before it does without.
 TRIALS = 4
@@ -35,20 +34,34 @@ class Face(NamedTuple):
 
 
 class OpenFace(NamedTuple):
-    """An open face as a query: its frame, the box of its vertices, and these."""
+    """An open face as a query: its frame and its vertices."""
 
     frame: Any
-    low: Point
-    high: Point
     face: Face
+
+
+def first_box(query: OpenFace, a: Point, b: Point, c: Point, reach: Any) -> tuple[Point, Point]:
+    """The corners of the box of a face and its circumcentre, which may be ``reach`` beyond it at most.
+
+    Faces of slivers at the hull have circumcentres far away; opening all cells on the way would be in vain.
+    """
+    low, high = bounding_box(a, b, c)
+    centre = add(query.frame.origin, query.frame.centre)
+    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - reach)) for u, v in zip(low, centre, strict=True)))
+    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + reach)) for u, v in zip(high, centre, strict=True)))
+    return low, high
+
+
+def search_faces(buckets: Buckets, queries: OpenFace, corners: list[Point], question: Question) -> Answer:
+    """The answers of open faces with the given corners, three records of coordinates."""
+    first = (corners[0], corners[0])
+    if buckets.cells is not None:
+        first = buckets.machine.map(first_box, queries, *corners, buckets.cells.grid.side)
+    return search(buckets, queries, first, question)
 
 
 def _homes(query: OpenFace) -> tuple[Any, Any, Any]:
     return query.face.a, query.face.b, query.face.c
-
-
-def _first_box(query: OpenFace, grid: Grid) -> Box:
-    return box_towards(query.low, query.high, add(query.frame.origin, query.frame.centre), grid)
 
 
 def _trial(query: OpenFace, k: Any, unit: Any) -> Any:
@@ -61,7 +74,7 @@ def _trial(query: OpenFace, k: Any, unit: Any) -> Any:
 
 
 def open_perturbed_face(face: Face, a: Point, b: Point, c: Point) -> OpenFace:
-    return OpenFace(signed_distance.frame(a, b, c), *bounding_box(a, b, c), face)
+    return OpenFace(signed_distance.frame(a, b, c), face)
 
 
 def _perturbed_score(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
@@ -92,18 +105,14 @@ def _perturbed_trial(query: OpenFace, k: Any) -> Any:
     return _trial(query, k, 1)
 
 
-PERTURBED = Question(
-    _perturbed_score, _homes, _first_box, _perturbed_region, _perturbed_admits, _perturbed_trial
-)
+PERTURBED = Question(_perturbed_score, _homes, _perturbed_region, _perturbed_admits, _perturbed_trial)
 
 
 # for sites as they are
 
 
-def open_exact_face(
-    face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any
-) -> OpenFace:
-    return OpenFace(filtered_distance.frame(a, b, c, filterable, lattice), *bounding_box(a, b, c), face)
+def open_exact_face(face: Face, a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> OpenFace:
+    return OpenFace(filtered_distance.frame(a, b, c, filterable, lattice), face)
 
 
 def _bounds(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
@@ -128,10 +137,11 @@ def _exact_trial(query: OpenFace, k: Any) -> Any:
     return _trial(query, k, norm(query.frame.normal) / 2)
 
 
-FILTERED = Question(_bounds, _homes, _first_box, _region, _may_hold, _exact_trial)
+FILTERED = Question(_bounds, _homes, _region, _may_hold, _exact_trial)
 
 
 def expand_perturbed(buckets: Buckets, faces: Face) -> Answer:
     """The fourth vertex of each face, or `NO_SITE` where no site is on its positive side."""
-    a, b, c = (sv.get(buckets.sites, v) for v in faces)
-    return search(buckets, buckets.machine.map(open_perturbed_face, faces, a, b, c), PERTURBED)
+    corners = [sv.get(buckets.sites, v) for v in faces]
+    queries = buckets.machine.map(open_perturbed_face, faces, *corners)
+    return search_faces(buckets, queries, corners, PERTURBED)

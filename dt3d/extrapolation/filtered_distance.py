@@ -5,10 +5,10 @@ through a face and a site d on its positive side has its centre at o + (s/2) N w
 
     s(d) = <w, w - 2o> / <N, w>,
 
-the signed distance of Teng et al. 1993, section 4.1, times 2 / |N|. N is not made a unit vector, as `signed_distance`
-does by QR, because then the height <N, w> is exact where the coordinates are small integers, and its error is
-zero where face and site lie in a plane along the axes: hulls of grids and boxes are decided without exact
-arithmetic.
+the signed distance of Teng et al. 1993, section 4.1, times 2 / |N|. N is not made a unit vector, as
+`signed_distance` does by QR, because then the height <N, w> is exact where the coordinates are small
+integers, and its error is zero where face and site lie in a plane along the axes: hulls of grids and boxes
+are decided without exact arithmetic.
 
 The bounds, with e = 2^-53 and |.| of each coordinate; U, V, S the lengths of u, v, N. Every rounding
 multiplies by at most 1 + e; contraction to fused multiply-add leaves roundings out.
@@ -17,15 +17,16 @@ multiplies by at most 1 + e; contraction to fused multiply-add leaves roundings 
   P_i = |u_j v_k| + |u_k v_j|.
 * The height is rounded 4 times more (w, product, two sums): error <= 9.1e sum P_i |w_i| <= sum p_i |w_i| with
   p_i = 12e P_i, which leaves room for the roundings of that sum and of height +- error.
-* o = (D x N) / (2 S^2), D = U^2 v - V^2 u. |D| <= UV (U+V), with an error of at most 8e UV (U+V). So the error of D x N is
-  at most e UV (U+V) (7.1 UV + 8S + 2.9S) <= 18e (UV)^2 (U+V), since |P| <= sqrt(2) UV and S <= UV. S^2 has a relative
-  error of 14.2e k + 4e, k = UV / S. With |o| <= k (U+V) / 2, o is known to 20e k^2 (U+V).
-* The numerator is rounded 5 times (w twice, difference, product, sums), and has the error of o: at most
-  sum |w_i| (10e |w_i - 2 o_i| + q), q = 44e k^2 (U+V), with room for the roundings of numerator +- error and of the
-  quotient.
+* o = (D x N) / (2 S^2), D = U^2 v - V^2 u. |D| <= UV (U+V), with an error of at most 8e UV (U+V). So the
+  error of D x N is at most e UV (U+V) (7.1 UV + 8S + 2.9S) <= 18e (UV)^2 (U+V), since |P| <= sqrt(2) UV and S
+  <= UV. S^2 has a relative error of 14.2e k + 4e, k = UV / S. With |o| <= k (U+V) / 2, o is known to 20e k^2
+  (U+V).
+* The numerator is rounded 5 times (w twice, difference, product, sums), and has the error of o: at most sum
+  |w_i| (10e |w_i - 2 o_i| + q), q = 44e k^2 (U+V), with room for the roundings of numerator +- error and of
+  the quotient.
 
-Where k exceeds 2^40 (a face so thin that terms of second order count), or products may under- or overflow, nothing
-is decided.
+Where k exceeds 2^40 (a face so thin that terms of second order count), or products may under- or overflow,
+nothing is decided.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from .points import Point, add, cross, dot, epsilon, scale, sub
+from .points import Point, cross, dot, epsilon, scale, sub
 
 
 class Frame(NamedTuple):
@@ -63,7 +64,9 @@ def frame(a: Point, b: Point, c: Point, filterable: Any, lattice: Any) -> Frame:
     longest = jnp.maximum(jnp.maximum(lengths[0], lengths[1]), lengths[2])
     opposite_a, opposite_b = lengths[1] == longest, lengths[2] == longest
     turned = [
-        Point(*(jnp.where(opposite_a, i, jnp.where(opposite_b, j, k)) for i, j, k in zip(*three, strict=True)))
+        Point(
+            *(jnp.where(opposite_a, i, jnp.where(opposite_b, j, k)) for i, j, k in zip(*three, strict=True))
+        )
         for three in ((a, b, c), (b, c, a), (c, a, b))
     ]
     origin, u, v = turned[0], sub(turned[1], turned[0]), sub(turned[2], turned[0])
@@ -111,7 +114,7 @@ def distance_bounds(face: Frame, site: Point) -> tuple[Any, Any]:
 
 
 def may_hold(face: Frame, bound: Any, low: Point, high: Point) -> Any:
-    """Whether a box may hold a site above the face with s(site) <= bound, or one coplanar in its circumcircle."""
+    """Whether a box may hold a site above the face with s(site) <= bound, or one in its circumcircle."""
     lo, hi = sub(low, face.origin), sub(high, face.origin)
     size = Point(*(jnp.maximum(jnp.abs(x), jnp.abs(y)) for x, y in zip(lo, hi, strict=True)))
     height = dot(face.doubt, size)

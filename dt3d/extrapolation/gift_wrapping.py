@@ -14,7 +14,7 @@ import scanvec as sv
 
 from .boxes import Box, Grid, containment_box
 from .buckets import Buckets
-from .points import Point, add, cross, dot, scale, sub
+from .points import Point, add, bounding_box, cross, dot, scale, sub
 from .search import Question, search
 
 
@@ -63,7 +63,6 @@ def _nearest_ball(query: Start, score: Any) -> Ball:
 NEAREST = Question(
     score=_nearest_score,
     homes=lambda query: (query.site,),
-    first_box=lambda query, grid: containment_box(query.a, query.a, grid),
     region=lambda query, score, grid: ball_box(_nearest_ball(query, score), grid),
     admits=lambda query, score, low, high: ball_meets(_nearest_ball(query, score), low, high),
     trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
@@ -80,14 +79,19 @@ class Edge(NamedTuple):
     site_b: Any
 
 
-def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
-    """Squared circumradius of (a, b, site): |ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2)."""
-    ab, ac, bc = sub(query.b, query.a), sub(site, query.a), sub(site, query.b)
+def squared_circumradius(a: Point, b: Point, c: Point) -> Any:
+    """|ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2); inf for flat triangles."""
+    ab, ac, bc = sub(b, a), sub(c, a), sub(c, b)
     normal = cross(ab, ac)
     area = dot(normal, normal)
-    flat = (area <= 0) | (index == query.site_a) | (index == query.site_b)
+    flat = area <= 0
     product = dot(ab, ab) * dot(ac, ac) * dot(bc, bc)
-    score = jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+    return jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
+
+
+def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
+    own = (index == query.site_a) | (index == query.site_b)
+    score = jnp.where(own, jnp.inf, squared_circumradius(query.a, query.b, site))
     return score, score
 
 
@@ -99,16 +103,9 @@ def _circle_ball(query: Edge, score: Any) -> Ball:
     return Ball(scale(0.5, add(query.a, query.b)), jnp.sqrt(score) + height)
 
 
-def _ends_box(query: Edge, grid: Grid) -> Box:
-    low = Point(*(jnp.minimum(u, v) for u, v in zip(query.a, query.b, strict=True)))
-    high = Point(*(jnp.maximum(u, v) for u, v in zip(query.a, query.b, strict=True)))
-    return containment_box(low, high, grid)
-
-
 SMALLEST_CIRCLE = Question(
     score=_circle_score,
     homes=lambda query: (query.site_a, query.site_b),
-    first_box=_ends_box,
     region=lambda query, score, grid: ball_box(_circle_ball(query, score), grid),
     admits=lambda query, score, low, high: ball_meets(_circle_ball(query, score), low, high),
     trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
@@ -119,6 +116,8 @@ def first_facets(buckets: Buckets) -> tuple[sv.Vector, sv.Vector, sv.Vector]:
     """A Delaunay facet (a, b, c) for every site a: three int32 vectors of length n."""
     sites, machine = buckets.sites, buckets.machine
     a = machine.iota(len(buckets.origin))
-    b = search(buckets, Start(sites, a), NEAREST).best.site
-    c = search(buckets, Edge(sites, sv.get(sites, b), a, b), SMALLEST_CIRCLE).best.site
+    b = search(buckets, Start(sites, a), (sites, sites), NEAREST).best.site
+    ends = sites, sv.get(sites, b)
+    first = machine.map(bounding_box, *ends)
+    c = search(buckets, Edge(*ends, a, b), first, SMALLEST_CIRCLE).best.site
     return a, b, c

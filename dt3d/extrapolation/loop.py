@@ -182,7 +182,10 @@ def _wrapped_facets(buckets: Buckets) -> Face:
     # a site whose nearest one is so near that all triangles with both look flat waits for others' faces
     facets = sv.pack(facets, facets.c != NO_SITE)
     if not len(facets.a):
-        msg = "no three sites form a triangle that this precision can tell from a flat one"
+        msg = (
+            "no three sites form a triangle that this precision can tell from a flat one; method='insertion' "
+            "needs none"
+        )
         raise InconsistencyError(msg, 0)
     return distinct_facets(facets)
 
@@ -190,8 +193,8 @@ def _wrapped_facets(buckets: Buckets) -> Face:
 def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
     if exact and out.inconsistencies:
         msg = (
-            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: this is "
-            f"an error of dt3d, please report it with the points"
+            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: "
+            f"this is an error of dt3d, please report it with the points"
         )
         raise InconsistencyError(msg, out.inconsistencies)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too

@@ -42,3 +42,10 @@ def norm(p: Point) -> Any:
 def epsilon(x: Any) -> Any:
     """The unit roundoff (half an ulp of 1) of a number's dtype."""
     return jnp.finfo(jnp.asarray(x).dtype).eps / 2
+
+
+def bounding_box(*points: Point) -> tuple[Point, Point]:
+    """Lowest and highest corner of the box of some points."""
+    low = Point(*(jnp.min(jnp.stack(x)) for x in zip(*points, strict=True)))
+    high = Point(*(jnp.max(jnp.stack(x)) for x in zip(*points, strict=True)))
+    return low, high

@@ -10,24 +10,6 @@ from .boxes import Box, Grid, containment_box
 from .points import Point, add, dot, epsilon, norm, scale, sub
 
 
-def bounding_box(*points: Point) -> tuple[Point, Point]:
-    """Lowest and highest corner of the box of some points."""
-    low = Point(*(jnp.min(jnp.stack(x)) for x in zip(*points, strict=True)))
-    high = Point(*(jnp.max(jnp.stack(x)) for x in zip(*points, strict=True)))
-    return low, high
-
-
-def box_towards(low: Point, high: Point, centre: Point, grid: Grid) -> Box:
-    """The containment box of a face's own box and its circumcentre, which may be a cell beyond it at most.
-
-    Faces of slivers at the hull have circumcentres far away; opening all cells on the way would be in vain.
-    """
-    reach = grid.side
-    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - reach)) for u, v in zip(low, centre, strict=True)))
-    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + reach)) for u, v in zip(high, centre, strict=True)))
-    return containment_box(low, high, grid)
-
-
 def cap_box(
     origin: Point, normal: Point, doubt: Point, centre: Point, distance: Any, slack: Any, grid: Grid
 ) -> Box:
@@ -49,10 +31,9 @@ def cap_box(
     cap_low, cap_high = _cap_bounds(origin, normal, centre, jnp.where(found, distance, 0))
     room = grid.side * 1e-3 + grid.slack
     # fmax and fmin leave out bounds that are not numbers
-    low = Point(*(jnp.where(found, jnp.fmax(u, v - slack), u) - room for u, v in zip(low, cap_low, strict=True)))
-    high = Point(
-        *(jnp.where(found, jnp.fmin(u, v + slack), u) + room for u, v in zip(high, cap_high, strict=True))
-    )
+    lower = (jnp.where(found, jnp.fmax(u, v - slack), u) for u, v in zip(low, cap_low, strict=True))
+    upper = (jnp.where(found, jnp.fmin(u, v + slack), u) for u, v in zip(high, cap_high, strict=True))
+    low, high = Point(*(x - room for x in lower)), Point(*(x + room for x in upper))
     return containment_box(low, high, grid)
 
 

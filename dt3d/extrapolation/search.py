@@ -1,9 +1,9 @@
 """The search for each query's best site.
 
-Three searches of the algorithm (a nearest site, a smallest circumcircle, a face expansion) ask for the site of
-least score near a query. A score may be known up to rounding only, so it is a pair of bounds, and an answer
-says whether the bounds leave more than one site. All queries search at once: sites that fill space evenly
-through cells (`cell_search`), others through a tree of boxes (`tree_search`).
+Three searches of the algorithm (a nearest site, a smallest circumcircle, a face expansion) ask for the site
+of least score near a query. A score may be known up to rounding only, so it is a pair of bounds, and an
+answer says whether the bounds leave more than one site. All queries search at once: sites that fill space
+evenly through cells (`cell_search`), others through a tree of boxes (`tree_search`).
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 
 import scanvec as sv
 
 from .buckets import SITES_PER_CELL, Buckets
+from .points import Point
 
 SITES_PER_WARRANT = SITES_PER_CELL
 NO_SITE = -1
@@ -34,8 +34,6 @@ class Question:
         Bounds of what the best site has least of; both inf for sites that are no answer.
     homes : (query) -> tuple of site indices
         Sites near which a first candidate may be found.
-    first_box : (query, grid) -> Box
-        The cells opened in the first round; not empty.
     region : (query, high, grid) -> Box
         All cells that could hold a site whose score is below ``high``.
     admits : (query, high, low: Point, high: Point) -> bool
@@ -47,7 +45,6 @@ class Question:
 
     score: Callable
     homes: Callable
-    first_box: Callable
     region: Callable
     admits: Callable
     trial: Callable
@@ -116,14 +113,18 @@ def _examination(question: Question) -> Callable:
     return _EXAMINATIONS[question]
 
 
-def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
-    """The site of least score for each of m queries, a record of vectors of length m."""
+def search(buckets: Buckets, queries: Any, first: tuple[Point, Point], question: Question) -> Answer:
+    """The site of least score for each of m queries, a record of vectors of length m.
+
+    ``first`` are the lowest and highest corners of boxes in which the search through cells begins.
+    """
     from . import cell_search, tree_search
 
-    if not len(jax.tree.leaves(queries)[0]):
+    if not len(first[0].x):
         return Answer(nothing_found(buckets.machine, 0, buckets.sites.x.dtype), 0)
-    by = tree_search if buckets.cells is None else cell_search
-    return by.search(buckets, queries, question)
+    if buckets.cells is None:
+        return tree_search.search(buckets, queries, question)
+    return cell_search.search(buckets, queries, first, question)
 
 
 def better_of(a: Best, b: Best) -> Best:

@@ -1,11 +1,12 @@
 """The first facets, checked: the seeds of the exact mode.
 
-Gift wrapping in floating point gives facets that are right unless sites are nearly cospherical. Both sides of each
-are expanded exactly, and it is Delaunay if and only if no coplanar site is inside its perturbed circumcircle,
-and the fourth vertex of one side is not inside the sphere of the other's tetrahedron. One right facet would be
-enough to find all tetrahedra from; the others are left out. If none is right, each is mended: the site that
-refutes the facet (a, b, c) takes the place of c. It is inside the least ball of the facet, so its
-circumcircle with a and b is smaller, and since ab is a Delaunay edge this ends at a facet whose least ball is empty.
+Gift wrapping in floating point gives facets that are right unless sites are nearly cospherical. Both sides of
+each are expanded exactly, and it is Delaunay if and only if no coplanar site is inside its perturbed
+circumcircle, and the fourth vertex of one side is not inside the sphere of the other's tetrahedron. One right
+facet would be enough to find all tetrahedra from; the others are left out. If none is right, each is mended:
+the site that refutes the facet (a, b, c) takes the place of c. It is inside the least ball of the facet, so
+its circumcircle with a and b is smaller, and since ab is a Delaunay edge this ends at a facet whose least
+ball is empty.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from .dead_faces import distinct_facets, opposite
 from .decisions import Counts, Expansion, expand_exactly
 from .exact_sites import ExactSites
 from .expansion import Face
+from .gift_wrapping import squared_circumradius
+from .points import Point
 from .search import NO_SITE
 
 # Sites whose nearest neighbours floating point cannot tell could send it round in circles.
@@ -48,9 +51,11 @@ def seeds(exact: ExactSites, facets: Face) -> tuple[Seeds, Counts]:
         open_question, refuter = machine.map(_first_look, front, back)
         index = sv.pack_index(open_question)
         facet, apex, site = sv.get((facets, front.site, back.site), index)
-        beaten = exact.inside(facet, apex, site)
-        beaten_by = machine.map(_if, beaten, site, NO_SITE)
-        refuter = sv.permute(beaten_by, index, into=refuter)
+        apart = exact.inside(facet, apex, site)
+        points = [sv.get(exact.buckets.sites, v) for v in (facet.a, facet.b, apex, site)]
+        nearer = machine.map(_of_smaller_circle, *points, apex, site)
+        refuting = machine.map(jnp.where, apart, nearer, NO_SITE)
+        refuter = sv.permute(refuting, index, into=refuter)
         good = machine.map(_stands, front, back, refuter)
         if int(sv.reduce(good, sv.ADD)):
             both = sv.pack(Seeds(faces, expansion.site), sv.append(good, good))
@@ -74,8 +79,9 @@ def _first_look(front: Expansion, back: Expansion) -> tuple[Any, Any]:
     return both & ~certain & (refuter == NO_SITE), refuter
 
 
-def _if(flag: Any, a: Any, b: Any) -> Any:
-    return jnp.where(flag, a, b)
+def _of_smaller_circle(a: Point, b: Point, d: Point, e: Point, site_d: Any, site_e: Any) -> Any:
+    """Which of d and e has the smaller circumcircle with a and b: one that is in the facet's least ball."""
+    return jnp.where(squared_circumradius(a, b, e) < squared_circumradius(a, b, d), site_e, site_d)
 
 
 def _stands(front: Expansion, back: Expansion, refuter: Any) -> Any:

@@ -1,9 +1,9 @@
 """A tree of boxes over sites in Morton order, and the descent of many queries at once.
 
-A leaf is eight consecutive sites, an inner node eight consecutive nodes of the level below; each has the least
-box of its sites. Nothing is empty in it, so surfaces and clusters cost a query what even sets do. It fits
-the requests of Teng et al. 1993, section 4.2: a request for a node too large to be searched becomes requests for
-its children.
+A leaf is eight consecutive sites, an inner node eight consecutive nodes of the level below; each has the
+least box of its sites. Nothing is empty in it, so surfaces and clusters cost a query what even sets do. It
+fits the requests of Teng et al. 1993, section 4.2: a request for a node too large to be searched becomes
+requests for its children.
 """
 
 from __future__ import annotations

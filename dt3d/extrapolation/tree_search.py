@@ -1,8 +1,8 @@
 """The search through the tree of boxes, for sites that do not fill space evenly.
 
-The leaves of a query's home sites give a first bound of its score. Then it descends into every box that could hold
-a better site, and searches the leaves it comes to: first under a bound that is small enough to be cheap, and
-if nothing is found below it under greater ones, up to the first bound or without any.
+The leaves of a query's home sites give a first bound of its score. Then it descends into every box that could
+hold a better site, and searches the leaves it comes to: first under a bound that is small enough to be cheap,
+and if nothing is found below it under greater ones, up to the first bound or without any.
 """
 
 from __future__ import annotations

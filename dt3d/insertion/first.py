@@ -22,8 +22,11 @@ def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
     """
     if len(points) == 1:
         raise no_volume(0, 1)
-    offset = points - points[a]
-    b = int(np.argmax(np.abs(offset).max(axis=1)))
+    rounded = about_one(points)
+    offset = rounded - rounded[a]
+    distance = np.abs(offset).max(axis=1)
+    distance[a] = -1  # all others may be as near, once they are rounded
+    b = int(np.argmax(distance))
     normals = np.cross(offset, offset[b])
     for c in np.argsort(-np.abs(normals).max(axis=1), kind="stable"):
         if not _collinear(points[a], points[b], points[c]):
@@ -41,6 +44,11 @@ def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
         sign = signs[d]
     first, second = (a, b) if sign > 0 else (b, a)
     return np.array([first, second, c, d], np.int32)
+
+
+def about_one(points: np.ndarray) -> np.ndarray:
+    """The points times a power of two, the greatest coordinate being about 1; what underflows is rounded."""
+    return np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
 
 
 def _collinear(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..predicates import work_array
-from .first import first_tetrahedron
+from .first import about_one, first_tetrahedron
 from .kernel import CREATED, DONE, FREE, INFINITE, LAST, NEXT, SLOTS, TESTED, WALKED, compact, insert
 from .order import insertion_order, morton_codes
 
@@ -36,8 +36,7 @@ def triangulate(
     """Triangulate distinct sites, float64 (n, 3), in lexicographic order; exactly.
 
     The order of the rows is that of the symbolic perturbation. ``report(inserted, slots)`` is called after
-    every stretch of sites. The caller has seen to it that the coordinates are in the range of the exact
-    predicates.
+    every stretch of sites. Fast if they are scaled so that the greatest coordinate is about 1.
 
     Raises
     ------
@@ -46,7 +45,8 @@ def triangulate(
     """
     seconds = {}
     begun = time.perf_counter()
-    along_curve = np.argsort(morton_codes(sites), kind="stable")
+    # the curve needs differences that do not overflow; what they lose by rounding costs time at most
+    along_curve = np.argsort(morton_codes(about_one(sites)), kind="stable")
     points = np.ascontiguousarray(sites[along_curve])
     rank = along_curve.astype(np.int64)
     n = len(points)
@@ -57,7 +57,7 @@ def triangulate(
 
     begun = time.perf_counter()
     store = _Store(first, SLOTS_PER_SITE * n + 64)
-    w = work_array()
+    w = work_array(points)
     while store.state[NEXT] < len(order):
         stop = min(int(store.state[NEXT]) // STRETCH * STRETCH + STRETCH, len(order))
         if insert(points, rank, order, store.arrays, store.state, stop, w) != DONE:

@@ -1,13 +1,15 @@
 """Exact geometric predicates: signs that are right for all inputs.
 
-`orient3d` and `in_sphere` take arrays and check them. What algorithms are written with has its own modules:
+`orient2d`, `orient3d`, `in_circle` and `in_sphere` take arrays and check them. What algorithms are written
+with has its own modules:
 
-* compiled by numba, by rows of an array: `filtered`, its exact stage `exact` with the arithmetic of
-  `expansions`, and `perturbed`, where ties are decided,
+* compiled by numba, for rows of an array: `filtered` and `filtered2d`, with what they leave open in
+  `adaptive`, `adaptive2d` and `exact`; `perturbed` and `perturbed2d`, where ties are decided. They compute
+  in a `work_array` that was made for the points, and fast if those are `scaled`.
 * in JAX, for one set of points inside mapped code: `elementwise`, with the arithmetic of `integers`.
 
-What is imported from here loads when it is first used, so that the JAX forms do not load numba, nor importing
-dt3d either.
+What is imported from here loads when it is first used, so that the JAX forms do not load numba, nor does
+importing dt3d.
 """
 
 from __future__ import annotations
@@ -16,18 +18,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .arrays import in_range, in_sphere, orient3d
-    from .expansions import EXPONENTS, work_array
+    from .arrays import in_circle, in_sphere, orient2d, orient3d
+    from .work import scaled, work_array
 
-__all__ = ["EXPONENTS", "in_range", "in_sphere", "orient3d", "work_array"]
+__all__ = ["in_circle", "in_sphere", "orient2d", "orient3d", "scaled", "work_array"]
 
-_HOME = {
-    "EXPONENTS": "expansions",
-    "in_range": "arrays",
-    "in_sphere": "arrays",
-    "orient3d": "arrays",
-    "work_array": "expansions",
-}
+_HOME = dict.fromkeys(__all__, "arrays") | {"scaled": "work", "work_array": "work"}
 
 
 def __getattr__(name: str) -> Any:

@@ -5,15 +5,22 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from . import filtered
-from .expansions import work_array
+from . import filtered, filtered2d
+from .work import scaled, work_array
 
 
 def signs(predicate: str, cases: np.ndarray) -> np.ndarray:
     """int8 (m,) of cases float64 (m, k, d)."""
     out = np.empty(len(cases), np.int8)
-    _LOOPS[predicate](cases, work_array(), out)
+    cases = scaled(cases)
+    _LOOPS[predicate](cases, work_array(cases), out)
     return out
+
+
+@numba.njit(cache=True)
+def _orient2d(cases, w, out):
+    for i in range(len(out)):
+        out[i] = filtered2d.orient2d(cases[i], 0, 1, 2, w)
 
 
 @numba.njit(cache=True)
@@ -23,9 +30,15 @@ def _orient3d(cases, w, out):
 
 
 @numba.njit(cache=True)
+def _in_circle(cases, w, out):
+    for i in range(len(out)):
+        out[i] = filtered2d.in_circle(cases[i], 0, 1, 2, 3, w)
+
+
+@numba.njit(cache=True)
 def _in_sphere(cases, w, out):
     for i in range(len(out)):
         out[i] = filtered.in_sphere(cases[i], 0, 1, 2, 3, 4, w)
 
 
-_LOOPS = {"orient3d": _orient3d, "in_sphere": _in_sphere}
+_LOOPS = {"orient2d": _orient2d, "orient3d": _orient3d, "in_circle": _in_circle, "in_sphere": _in_sphere}

@@ -1,108 +1,204 @@
-"""Exact signs of the determinants of orientation and in-sphere, by expansions."""
+"""Exact signs of the predicates, compiled, for any finite coordinates: in integers of any size.
+
+All coordinates are multiples of one power of two. A number is some digits in a row in the work array, named
+by the place of the first: the value is the sum of x[at + i] 2^(27 i). Digits have signs of their own, as in
+`integers`, with h = 2^26: after `_carry` all are at most h but for the highest, which keeps what has no place
+above it, at most 2^30. A column of a product is then at most h^2 times the length of the shorter factor, at
+most 156, and two products of a highest digit; and four such columns are less than 2^63.
+
+First in the array are up to four rows of differences, each a number for each coordinate, of as many digits n
+as these points need: 78 for the greatest and the least floating-point number. What is computed from them lies
+behind.
+"""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba
+import numpy as np
+from numba import types
+from numba.extending import intrinsic
 
-from .expansions import add, difference, multiply, negate
+from .work import SLACK
 
-# A work array begins with the twelve entries of up to four rows of differences, two components each, and
-# their lengths; what is computed from them lies behind.
-LENGTHS = 24
-FREE = 36
-
-
-@numba.njit(cache=True)
-def _minor(w, p, q, h):
-    """Put x_p y_q - x_q y_p, of rows p and q, at w[h]; all from w[h] on is used."""
-    a = _product(w, 3 * p, 3 * q + 1, h)
-    b = _product(w, 3 * q, 3 * p + 1, h + a)
-    negate(w, h + a, b)
-    return _collect(w, h, a, b)
+BITS = 27
+HALF = 1 << (BITS - 1)
 
 
 @numba.njit(cache=True)
-def _product(w, i, j, h):
-    """Put the product of entries i and j of the rows at w[h]; all from w[h] on is used."""
-    return multiply(w, 2 * i, int(w[LENGTHS + i]), 2 * j, int(w[LENGTHS + j]), h)
-
-
-@numba.njit(cache=True)
-def _collect(w, h, total, n):
-    """Replace the expansion of length total at w[h] by its sum with that of length n behind it."""
-    s = add(w, h, total, h + total, n, h + total + n)
-    for x in range(s):
-        w[h + x] = w[h + total + n + x]
-    return s
-
-
-@numba.njit(cache=True)
-def _determinant3(w, i, j, k, h):
-    """Put the determinant of rows i, j, k at w[h]; all from w[h] on is used."""
-    total = 0
-    for turn in range(3):
-        p, q, r = (i, j, k) if turn == 0 else ((j, k, i) if turn == 1 else (k, i, j))
-        # the minor moves behind the product that is made of it, and is overwritten with the sum
-        at = h + total
-        m = _minor(w, p, q, at)
-        n = multiply(w, at, m, 2 * (3 * r + 2), int(w[LENGTHS + 3 * r + 2]), at + m)
-        for x in range(n):
-            w[at + x] = w[at + m + x]
-        total = _collect(w, h, total, n)
-    return total
-
-
-@numba.njit(cache=True)
-def _lift(w, k, h):
-    """Put the squared length of row k at w[h]; all from w[h] on is used."""
-    total = 0
-    for c in range(3):
-        n = _product(w, 3 * k + c, 3 * k + c, h + total)
-        total = _collect(w, h, total, n)
-    return total
-
-
-@numba.njit(cache=True)
-def _sign(w, e, n):
-    if n == 0:
-        return 0
-    return 1 if w[e + n - 1] > 0.0 else -1
-
-
-@numba.njit(cache=True)
-def _enter(points, w, r, p, q):
-    """Make point p minus point q the row r."""
-    for c in range(3):
-        i = 3 * r + c
-        w[LENGTHS + i] = difference(w, 2 * i, points[p, c], points[q, c])
+def orient2d_exact(points, a, b, c, w):
+    """Sign of det[b-a, c-a] of three rows of ``points``."""
+    x = _integers(w)
+    n = _enter(points, (int(b), int(c)), int(a), x)
+    _minor(x, n, 0, 2 * n, 4 * n)
+    return _sign(x, 4 * n, 2 * n)
 
 
 @numba.njit(cache=True)
 def orient3d_exact(points, a, b, c, d, w):
     """Sign of det[b-a, c-a, d-a] of four rows of ``points``."""
-    _enter(points, w, 0, b, a)
-    _enter(points, w, 1, c, a)
-    _enter(points, w, 2, d, a)
-    return _sign(w, FREE, _determinant3(w, 0, 1, 2, FREE))
+    x = _integers(w)
+    n = _enter(points, (int(b), int(c), int(d)), int(a), x)
+    _determinant(x, n, 0, 3 * n, 6 * n, 9 * n)
+    return _sign(x, 9 * n, 3 * n)
+
+
+@numba.njit(cache=True)
+def in_circle_exact(points, a, b, c, d, w):
+    """Sign of the in-circle determinant: 1 where d is inside the circle of the positive triangle abc."""
+    x = _integers(w)
+    n = _enter(points, (int(a), int(b), int(c)), int(d), x)
+    total, lift, minor = 6 * n, 10 * n, 12 * n
+    _clear(x, total, 4 * n)
+    for k in range(3):
+        _lift(x, n, 2 * n * k, 2, lift)
+        _minor(x, n, 2 * n * ((k + 1) % 3), 2 * n * ((k + 2) % 3), minor)
+        _add_product(x, total, lift, 2 * n, minor, 2 * n, 1)
+    _carry(x, total, 4 * n)
+    return _sign(x, total, 4 * n)
 
 
 @numba.njit(cache=True)
 def in_sphere_exact(points, a, b, c, d, e, w):
     """Sign of the in-sphere determinant: 1 where e is inside the sphere of the positive tetrahedron abcd."""
-    _enter(points, w, 0, a, e)
-    _enter(points, w, 1, b, e)
-    _enter(points, w, 2, c, e)
-    _enter(points, w, 3, d, e)
-    total = 0
+    x = _integers(w)
+    n = _enter(points, (int(a), int(b), int(c), int(d)), int(e), x)
+    total, lift, minor = 12 * n, 17 * n, 19 * n
+    _clear(x, total, 5 * n)
     for k in range(4):
         i, j, m = (1, 2, 3) if k == 0 else ((0, 2, 3) if k == 1 else ((0, 1, 3) if k == 2 else (0, 1, 2)))
-        at = FREE + total
-        lift = _lift(w, k, at)
-        minor = _determinant3(w, i, j, m, at + lift)
-        n = multiply(w, at + lift, minor, at, lift, at + lift + minor)
-        if k % 2 == 1:
-            negate(w, at + lift + minor, n)
-        for x in range(n):
-            w[at + x] = w[at + lift + minor + x]
-        total = _collect(w, FREE, total, n)
-    return _sign(w, FREE, total)
+        _lift(x, n, 3 * n * k, 3, lift)
+        _determinant(x, n, 3 * n * i, 3 * n * j, 3 * n * m, minor)
+        _add_product(x, total, lift, 2 * n, minor, 3 * n, 1 - 2 * (k % 2))
+    _carry(x, total, 5 * n)
+    return _sign(x, total, 5 * n)
+
+
+@numba.njit(cache=True)
+def _integers(w):
+    """The work array behind the slack, for integers."""
+    return w[SLACK + 1 :].view(np.int64)
+
+
+@intrinsic
+def _bits(context: Any, x: Any) -> Any:
+    """The 64 bits of a double, as an integer."""
+
+    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.bitcast(args[0], context.get_value_type(types.int64))
+
+    return types.int64(types.float64), generate
+
+
+@numba.njit(cache=True)
+def _parts(x):
+    """m and e with |x| = m 2^(e - 1075): up to 53 bits, and an exponent from 1 to 2046."""
+    bits = _bits(x)
+    fraction, exponent = bits & ((1 << 52) - 1), (bits >> 52) & 0x7FF
+    return (fraction, 1) if exponent == 0 else (fraction | 1 << 52, exponent)
+
+
+@numba.njit(cache=True)
+def _reach(points, i, least, greatest):
+    """The least and the greatest exponent of a bit that is set, so far and in a point."""
+    for c in range(points.shape[1]):
+        m, e = _parts(points[i, c])
+        if m != 0:
+            # the lowest bit that is set is a power of two, whose exponent its float has
+            least = min(least, e + (_bits(float(m & -m)) >> 52) - 1023)
+            greatest = max(greatest, e + 53)
+    return least, greatest
+
+
+@numba.njit(cache=True)
+def _enter(points, rows, origin, x):
+    """Put the digits of some points minus another at x[0], row after row; returns their length."""
+    least, greatest = _reach(points, origin, 4000, 0)
+    for i in rows:
+        least, greatest = _reach(points, i, least, greatest)
+    n = max(greatest - least, 0) // BITS + 1
+    at = 0
+    for i in rows:
+        for c in range(points.shape[1]):
+            _clear(x, at, n)
+            _add_coordinate(x, at, points[i, c], least)
+            _add_coordinate(x, at, -points[origin, c], least)
+            _carry(x, at, n)
+            at += n
+    return n
+
+
+@numba.njit(cache=True)
+def _add_coordinate(x, at, value, unit):
+    """Add a coordinate, a multiple of 2^(unit - 1075)."""
+    m, e = _parts(value)
+    if e < unit:
+        m, e = m >> (unit - e), unit
+    place, shift = divmod(e - unit, BITS)
+    low, high = (m & (2 * HALF - 1)) << shift, (m >> BITS) << shift
+    sign = -1 if value < 0.0 else 1
+    if low != 0:
+        x[at + place] += sign * low
+    if high != 0:
+        x[at + place + 1] += sign * high
+
+
+@numba.njit(cache=True)
+def _minor(x, n, p, q, at):
+    """Put x_p y_q - x_q y_p, of the rows at p and q, at x[at], 2 n digits."""
+    _clear(x, at, 2 * n)
+    _add_product(x, at, p, n, q + n, n, 1)
+    _add_product(x, at, q, n, p + n, n, -1)
+    _carry(x, at, 2 * n)
+
+
+@numba.njit(cache=True)
+def _determinant(x, n, p, q, r, at):
+    """Put the determinant of the rows at p, q and r at x[at], 3 n digits; 2 n behind are used."""
+    _clear(x, at, 3 * n)
+    for i, j, k in ((p, q, r), (q, r, p), (r, p, q)):
+        _minor(x, n, i, j, at + 3 * n)
+        _add_product(x, at, at + 3 * n, 2 * n, k + 2 * n, n, 1)
+    _carry(x, at, 3 * n)
+
+
+@numba.njit(cache=True)
+def _lift(x, n, p, dimension, at):
+    """Put the squared length of the row at p at x[at], 2 n digits."""
+    _clear(x, at, 2 * n)
+    for c in range(dimension):
+        _add_product(x, at, p + c * n, n, p + c * n, n, 1)
+    _carry(x, at, 2 * n)
+
+
+@numba.njit(cache=True)
+def _clear(x, at, n):
+    for i in range(at, at + n):
+        x[i] = 0
+
+
+@numba.njit(cache=True)
+def _add_product(x, at, a, na, b, nb, sign):
+    """Add the product of the numbers at a and b, or subtract it."""
+    for i in range(na):
+        factor = sign * x[a + i]
+        if factor != 0:
+            for j in range(nb):
+                x[at + i + j] += factor * x[b + j]
+
+
+@numba.njit(cache=True)
+def _carry(x, at, n):
+    for i in range(at, at + n - 1):
+        over = (x[i] + HALF) >> BITS
+        x[i] -= over << BITS
+        x[i + 1] += over
+
+
+@numba.njit(cache=True)
+def _sign(x, at, n):
+    for i in range(at + n - 1, at - 1, -1):
+        if x[i] != 0:
+            return 1 if x[i] > 0 else -1
+    return 0

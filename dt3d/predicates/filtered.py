@@ -5,8 +5,8 @@ the three unit vectors in order. In-sphere of a, b, c, d, e is positive where e 
 of a positive tetrahedron abcd. Points are named by their rows in an array, so that compiled code makes no
 views of it.
 
-The bounds. Let u = 2^-53, X, Y, Z the largest absolute differences of coordinates, M the largest of them. No
-product under- or overflows for coordinates in the range `EXPONENTS` of the exact stage.
+The bounds. Let u = 2^-53, X, Y, Z the largest absolute differences of coordinates, M the largest of them.
+What under- and overflow can do is the slack of the work array, which has to be made for the points (`work`).
 
 * orientation: 6 monomials, each at most XYZ. On the way a monomial is rounded at most 3 times in its
   differences, 2 in its 2x2 minor, once in the product with the third row, twice in sums: error <= 6 XYZ
@@ -23,7 +23,8 @@ from __future__ import annotations
 
 import numba
 
-from .exact import in_sphere_exact, orient3d_exact
+from .adaptive import in_sphere_adaptive, orient3d_adaptive
+from .work import SLACK
 
 ORIENT3D_BOUND = 49.0 * 2.0**-53
 IN_SPHERE_BOUND = 1240.0 * 2.0**-53
@@ -37,13 +38,13 @@ def orient3d(points, a, b, c, d, w):
     cx, cy, cz = points[c, 0] - x, points[c, 1] - y, points[c, 2] - z
     dx, dy, dz = points[d, 0] - x, points[d, 1] - y, points[d, 2] - z
     det = bx * (cy * dz - cz * dy) + cx * (dy * bz - dz * by) + dx * (by * cz - bz * cy)
-    size = max(abs(bx), abs(cx), abs(dx)) * max(abs(by), abs(cy), abs(dy)) * max(abs(bz), abs(cz), abs(dz))
-    bound = ORIENT3D_BOUND * size
+    x, y, z = max(abs(bx), abs(cx), abs(dx)), max(abs(by), abs(cy), abs(dy)), max(abs(bz), abs(cz), abs(dz))
+    bound = ORIENT3D_BOUND * (x * y * z) + w[SLACK]
     if det > bound:
         return 1
     if det < -bound:
         return -1
-    return orient3d_exact(points, a, b, c, d, w)
+    return orient3d_adaptive(points, a, b, c, d, det, x, y, z, w)
 
 
 @numba.njit(cache=True)
@@ -69,10 +70,9 @@ def in_sphere(points, a, b, c, d, e, w):
     y = max(max(abs(ay), abs(by)), max(abs(cy), abs(dy)))
     z = max(max(abs(az), abs(bz)), max(abs(cz), abs(dz)))
     m = max(x, y, z)
-    size = x * y * z * (m * m)
-    bound = IN_SPHERE_BOUND * size
+    bound = IN_SPHERE_BOUND * (x * y * z * (m * m)) + w[SLACK]
     if det > bound:
         return 1
     if det < -bound:
         return -1
-    return in_sphere_exact(points, a, b, c, d, e, w)
+    return in_sphere_adaptive(points, a, b, c, d, e, det, x, y, z, w)

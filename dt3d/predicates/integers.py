@@ -6,11 +6,11 @@ or two, never through the whole number, and the sign is that of the highest digi
 operation is a few operations on whole arrays, whatever the number of digits (A. Avizienis: Signed-digit
 number representations for fast parallel arithmetic, IRE Transactions on Electronic Computers EC-10, 1961).
 
-The bounds. Let h = 2^26, half a digit. `limbs_of` gives |x[i]| <= h, so differences have digits of at most 2 h
-and need no carry. After `carry` digits are at most h + 2^10, except the highest, which keeps what has no
-place above it. With n the length of the shorter factor, a column of a product of differences is at most
-4 h^2 n = 2^54 n, and a sum of three of them (a squared length) stays below 2^63 up to n = 170. No other sum in
-`elementwise` is greater.
+The bounds. Let h = 2^26, half a digit. `limbs_of` gives |x[i]| <= h, so differences have digits of at most
+2 h and need no carry. After `carry` digits are at most h + 2^10, except the highest, which keeps what has
+no place above it. With n the length of the shorter factor, a column of a product of differences is at most
+4 h^2 n = 2^54 n, and a sum of three of them (a squared length) stays below 2^63 up to n = 170. No other sum
+in `determinants` is greater.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def limbs_of(points: Any) -> np.ndarray:
     """Finite coordinates as integers, exactly: int32 (L, n, d) for float64 (n, d).
 
     One power of two for all makes them integers. L is the least of `LENGTHS` that holds the greatest: 1 for
-    lattices of up to 2^26 steps, 2 for multiples of 2^-53 in the unit cube, 3 or 4 for other random floats, 78
-    for any set. Computed by NumPy, since XLA takes subnormal numbers for zero.
+    lattices of up to 2^26 steps, 2 for multiples of 2^-53 in the unit cube, 3 or 4 for other random floats,
+    78 for any set. Computed by NumPy, since XLA takes subnormal numbers for zero.
     """
     points = np.asarray(points, np.float64)
     fraction, exponent = np.frexp(points.ravel())

@@ -1,47 +1,46 @@
-"""stand-in"""
+"""The in-circle test of perturbed sites in the plane, which is never undecided: as `perturbed` in space.
+
+Site p is lifted to height |p|^2 + e_p, with infinitesimals e_p in the lexicographic order of the
+coordinates, the first infinitely larger than the next.
+"""
+
 from __future__ import annotations
 
 import numba
 
-from numba.extending import intrinsic
-
 from .filtered2d import in_circle, orient2d
-from .outlined import call_outlined
-
-
-@intrinsic
-def _tied_slow(typingctx, points, a, b, c, d, w):
-    return call_outlined(typingctx, _inside_tied, (points, a, b, c, d, w))
 
 
 @numba.njit(cache=True)
-def before(points, a, b):
-    """Whether a comes before b in the lexicographic order of coordinates."""
-    return points[a, 0] < points[b, 0] or (points[a, 0] == points[b, 0] and points[a, 1] < points[b, 1])
+def inside(points, rank, v, site, w):
+    """Whether a site is inside the perturbed circumcircle of the positive triangle v, three sites.
 
-
-@numba.njit(cache=True)
-def inside2d(points, a, b, c, d, w):
-    sign = in_circle(points, a, b, c, d, w)
+    ``rank`` holds the place of each site in the lexicographic order of coordinates.
+    """
+    sign = in_circle(points, v[0], v[1], v[2], site, w)
     if sign != 0:
         return sign > 0
-    return _tied_slow(points, a, b, c, d, w)
+    return _inside_tied(points, rank, v, site, w)
 
 
 @numba.njit(cache=True)
-def _inside_tied(points, a, b, c, d, w):
-    # of the four the first decides; no three of a circle are collinear
-    first, k = d, 3
-    if before(points, a, first):
-        first, k = a, 0
-    if before(points, b, first):
-        first, k = b, 1
-    if before(points, c, first):
-        first, k = c, 2
-    if k == 3:
-        return False
-    if k == 0:
-        return orient2d(points, d, b, c, w) > 0
-    if k == 1:
-        return orient2d(points, a, d, c, w) > 0
-    return orient2d(points, a, b, d, w) > 0
+def _inside_tied(points, rank, v, site, w):
+    """The perturbed in-circle test of a site on the circumcircle of triangle v.
+
+    Of the four in the order of `rank` the first whose coefficient is not zero decides. A site on the circle
+    is on no line through two vertices, so that is the first of all.
+    """
+    k, least = 3, rank[site]
+    for i in range(3):
+        if rank[v[i]] < least:
+            k, least = i, rank[v[i]]
+    return k < 3 and orientation_with(points, v, k, site, w) > 0
+
+
+@numba.njit(cache=True)
+def orientation_with(points, v, k, site, w):
+    """Orientation of a triangle with the site in the place of its k-th vertex."""
+    a = site if k == 0 else v[0]
+    b = site if k == 1 else v[1]
+    c = site if k == 2 else v[2]
+    return orient2d(points, a, b, c, w)

@@ -41,7 +41,8 @@ def row(out, name):
 
 def test_triangulate_writes_a_mesh_and_prints_its_counts(points, tmp_path, capsys):
     mesh, picture = tmp_path / "mesh.npz", tmp_path / "mesh.png"
-    assert cli.main(["triangulate", str(points), "-o", str(mesh), "--picture", str(picture)]) == 0
+    words = ["triangulate", points, "-o", mesh, "--picture", picture, "--method", "extrapolation"]
+    assert cli.main([str(word) for word in words]) == 0
     out, err = capsys.readouterr()
     assert err == ""
     assert picture.read_bytes().startswith(b"\x89PNG")
@@ -56,6 +57,7 @@ def test_triangulate_writes_a_mesh_and_prints_its_counts(points, tmp_path, capsy
     assert row(out, "face expansions") == f"{tri.stats.face_expansions:,}"
     assert row(out, "expansions per tetrahedron") == f"{tri.stats.face_expansions / len(tri.simplices):.2f}"
     assert row(out, "inconsistencies") == "0"
+    assert row(out, "decided exactly") == str(tri.stats.exact_decisions)
     for phase in tri.stats.seconds:
         assert float(row(out, f"seconds: {phase}")) >= 0
     # a line for each iteration, the last of which has all tetrahedra and no open face
@@ -63,9 +65,9 @@ def test_triangulate_writes_a_mesh_and_prints_its_counts(points, tmp_path, capsy
     assert [int(line[0]) for line in growth] == list(range(1, tri.stats.iterations + 1))
 
 
-def test_triangulate_by_insertion(points, tmp_path, capsys):
+def test_triangulate_inserts_unless_told_otherwise(points, tmp_path, capsys):
     mesh = tmp_path / "mesh.npz"
-    assert cli.main(["triangulate", str(points), "-o", str(mesh), "--method", "insertion"]) == 0
+    assert cli.main(["triangulate", str(points), "-o", str(mesh)]) == 0
     out = capsys.readouterr().out
     tri = dt3d.Delaunay(np.load(points), method="insertion")
     np.testing.assert_array_equal(read_mesh(mesh).simplices, tri.simplices)
@@ -94,8 +96,10 @@ def test_options_reach_the_triangulation(points, tmp_path, monkeypatch):
 
     monkeypatch.setattr(dt3d, "Delaunay", spy)
     words = ["triangulate", str(points), "-o", str(tmp_path / "a.npz"), "--seed", "7", "--dtype", "float32"]
+    words += ["--robustness", "perturb"]
     assert cli.main([*words, "--machine", "simulated"]) == 2
     assert (seen["seed"], seen["dtype"], seen["machine"].processors) == (7, "float32", 32)
+    assert (seen["method"], seen["robustness"]) == ("auto", "perturb")
     assert cli.main([*words, "--machine", "device"]) == 2
     assert type(seen["machine"]).__name__ == "Device"
     assert cli.main(words) == 2
@@ -224,6 +228,7 @@ def test_no_numbers_are_divided_by_nothing():
         iterations=0,
         face_expansions=0,
         sites_searched=0,
+        exact_decisions=0,
         tetrahedra_per_iteration=(),
         inconsistencies=0,
         seconds={},

@@ -6,7 +6,7 @@ import pytest
 import dt3d
 import scanvec as sv
 
-from .exact import validate
+from .exact import as_coordinates, validate
 
 RNG = np.random.default_rng(0)
 POINTS = RNG.random((20, 3))
@@ -119,10 +119,42 @@ def test_extreme_magnitudes(exponent, method):
     validate(dt3d.Delaunay(points, method=method))
 
 
-def test_magnitudes_that_exact_insertion_cannot_hold_together():
-    points = np.concatenate([POINTS, [[1e-50, 0, 0]]])
-    with pytest.raises(ValueError, match="1e-50 to 0.9.* too far apart for exact insertion"):
-        dt3d.Delaunay(points)
+def magnitudes(*values):
+    """Some points whose coordinates are of these magnitudes, mixed, and 0."""
+    rng = np.random.default_rng(0)
+    return rng.choice([0.0, *values, *(-x for x in values)], (60, 3)) * rng.integers(1, 3, (60, 3))
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        np.concatenate([POINTS, [[1e-50, 0, 0], [1e-50, 1e-60, 0], [0, 1e-50, 1e-300]]]),
+        np.concatenate([POINTS, np.round(POINTS * 3) * 1e-50]),
+        np.concatenate([POINTS, np.round(POINTS * 9) * 5e-324]),  # subnormal numbers
+        np.round(POINTS * 9) * 5e-324,
+        np.concatenate([POINTS * 1e300, POINTS, POINTS * 1e-300]),
+        np.concatenate([POINTS, [[1e300, 0, 0], [0, -1e300, 1.7e308]]]),
+        magnitudes(1e-300, 1, 1e300),
+        magnitudes(5e-324, 1e-50, 1, 8e307),
+        np.concatenate([np.round(POINTS * 3) * 5e-324, np.round(POINTS * 3) * 1e-300 + [1e300, 0, 0]]),
+        np.round(POINTS * 9) * [1e285, 1e-300, 5e-324] + [1e300, 0, 0],
+    ],
+)
+def test_magnitudes_far_apart(points):
+    tri = dt3d.Delaunay(points, method="insertion")
+    validate(tri)
+    assert tri.verify()
+    again = dt3d.Delaunay(points[::-1], method="insertion")
+    assert as_coordinates(again.points, again.simplices) == as_coordinates(points, tri.simplices)
+
+
+def test_a_plane_of_coordinates_far_apart():
+    points = np.concatenate([POINTS * 1e300, POINTS, POINTS * 1e-300])
+    points[:, 2] = -1e-300
+    with pytest.raises(dt3d.DegenerateInputError, match="the 60 distinct sites that came lie on a plane"):
+        dt3d.Delaunay(points, method="insertion")
+    with pytest.raises(dt3d.DegenerateInputError, match="lie on a line"):
+        dt3d.Delaunay(points * [0, 1, 0], method="insertion")
 
 
 @pytest.mark.parametrize("method", ["insertion", "extrapolation"])

@@ -109,4 +109,4 @@ def test_sites_too_near_for_a_first_facet_end_with_an_error_that_says_so():
 def test_thousands_on_one_sphere_are_warned_of(monkeypatch):
     monkeypatch.setattr(decisions, "CROWD", 8)
     with pytest.warns(dt3d.QuadraticSearchWarning, match="nearly cospherical .* method='insertion'"):
-        dt3d.Delaunay(on_sphere(300), method="extrapolation")
+        dt3d.Delaunay(on_sphere(100), method="extrapolation")

@@ -8,7 +8,7 @@ from dt3d.extrapolation import buckets as buckets_module
 from dt3d.extrapolation import cell_search, tree
 from dt3d.extrapolation.boxes import cell_of
 from dt3d.extrapolation.buckets import bucket, morton_code
-from dt3d.extrapolation.expansion import FILTERED, Face, expand_perturbed, open_exact_face
+from dt3d.extrapolation.expansion import FILTERED, Face, expand_perturbed, open_exact_face, search_faces
 from dt3d.extrapolation.gift_wrapping import NEAREST, Start, first_facets, squared_distance_to_box
 from dt3d.extrapolation.points import Point
 from dt3d.extrapolation.search import NO_SITE, search
@@ -51,7 +51,10 @@ def test_buckets(name, load):
 
 
 def test_sites_that_fill_space_evenly_get_cells():
-    sets = SETS | {"plane": np.c_[RNG.random((3000, 2)), np.zeros(3000)], "normal": RNG.standard_normal((3000, 3))}
+    sets = SETS | {
+        "plane": np.c_[RNG.random((3000, 2)), np.zeros(3000)],
+        "normal": RNG.standard_normal((3000, 3)),
+    }
     even = {
         name: bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T))).cells is not None
         for name, points in sets.items()
@@ -62,7 +65,10 @@ def test_sites_that_fill_space_evenly_get_cells():
 
 
 def test_morton_codes():
-    i, j, k = (MACHINE.vector(np.array(v)) for v in ([1, 0, 0, 5, 2**21 - 1], [0, 1, 0, 0, 2**21 - 1], [0, 0, 1, 0, 2**21 - 1]))
+    i, j, k = (
+        MACHINE.vector(np.array(v))
+        for v in ([1, 0, 0, 5, 2**21 - 1], [0, 1, 0, 0, 2**21 - 1], [0, 0, 1, 0, 2**21 - 1])
+    )
     assert MACHINE.map(morton_code, i, j, k).to_numpy().tolist() == [1, 2, 4, 0b1000001, 2**63 - 1]
 
 
@@ -102,7 +108,9 @@ def test_a_descent_finds_every_leaf_that_admits(monkeypatch):
         query = np.concatenate([b.query.to_numpy() for b in batches])
         leaf = np.concatenate([b.node.to_numpy() for b in batches])
         assert (np.diff(query) >= 0).all()
-        low, high = (np.stack([v.to_numpy() for v in p], axis=1)[: built.sizes[0]] for p in (built.low, built.high))
+        low, high = (
+            np.stack([v.to_numpy() for v in p], axis=1)[: built.sizes[0]] for p in (built.low, built.high)
+        )
         for q in range(50):
             gap = np.maximum(np.maximum(low - points[q], points[q] - high), 0)
             want = np.flatnonzero((gap**2).sum(axis=1) <= radius.to_numpy()[q] ** 2)
@@ -114,11 +122,16 @@ def _ball_meets(ball, low, high):
     return squared_distance_to_box(centre, low, high) <= radius * radius
 
 
+def nearest(buckets):
+    n = len(buckets.origin)
+    return search(buckets, Start(buckets.sites, MACHINE.iota(n)), (buckets.sites, buckets.sites), NEAREST)
+
+
 @pytest.mark.parametrize("name", SETS)
 def test_nearest_site(name, load):
     buckets = load(SETS[name])
     sites = in_order(buckets)
-    answer = search(buckets, Start(buckets.sites, MACHINE.iota(len(sites))), NEAREST)
+    answer = nearest(buckets)
     squared = ((sites[:, None] - sites) ** 2).sum(axis=2)
     np.fill_diagonal(squared, np.inf)
     np.testing.assert_array_equal(answer.best.site.to_numpy(), squared.argmin(axis=1))
@@ -172,8 +185,9 @@ def test_face_expansion(name, load):
     answer = expand_perturbed(buckets, faces)
     np.testing.assert_array_equal(answer.best.site.to_numpy(), want)
 
-    corners = (sv.get(buckets.sites, v) for v in faces)
-    bounded = search(buckets, MACHINE.map(open_exact_face, faces, *corners, True, False), FILTERED).best
+    corners = [sv.get(buckets.sites, v) for v in faces]
+    queries = MACHINE.map(open_exact_face, faces, *corners, True, False)
+    bounded = search_faces(buckets, queries, corners, FILTERED).best
     decided = bounded.second.to_numpy() > bounded.high.to_numpy()
     assert decided.sum() >= np.count_nonzero(np.array(want) != NO_SITE) - 1
     np.testing.assert_array_equal(bounded.site.to_numpy()[decided], np.array(want)[decided])
@@ -181,9 +195,8 @@ def test_face_expansion(name, load):
 
 def test_queries_wait_where_memory_is_bounded(monkeypatch):
     buckets = bucket(Point(*(MACHINE.vector(c.copy()) for c in SETS["uniform"].T)))
-    start = Start(buckets.sites, MACHINE.iota(300))
-    free = search(buckets, start, NEAREST)
+    free = nearest(buckets)
     monkeypatch.setattr(cell_search, "MOST_REQUESTS", 64)
-    bounded = search(buckets, start, NEAREST)
+    bounded = nearest(buckets)
     np.testing.assert_array_equal(bounded.best.site.to_numpy(), free.best.site.to_numpy())
     assert bounded.sites_searched == free.sites_searched

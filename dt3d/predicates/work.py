@@ -1,0 +1,37 @@
+"""The work array of the compiled predicates: what they know of the points, and where they compute.
+
+The first entry is the *slack*, which every bound of a floating-point error gets added. The bounds are
+relative to the greatest differences of coordinates, and hold if no operation under- or overflows. With
+coordinates of at most 1 nothing overflows, and what underflows is off by 2^-1075: a predicate has less than
+2^9 such errors, each times differences that multiply to at most 48. So a slack of 2^-1000 is enough for them,
+and 2^-1000 G^5 for coordinates of at most G > 1. Beyond 2^200, where G^5 could overflow, the slack is
+infinite: nothing is then decided in floating point.
+
+Behind it is room for the integers of the exact stage.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+SLACK = 0
+SIZE = 2048  # an in-sphere determinant of 78 digits a coordinate takes 24 * 78 integers
+
+
+def work_array(points: np.ndarray) -> np.ndarray:
+    """What one thread's predicates of rows of ``points``, float64 (n, d), work in, float64 (SIZE,)."""
+    w = np.empty(SIZE)
+    greatest = float(np.abs(points).max(initial=1))
+    w[SLACK] = 2.0**-1000 * greatest**5 if greatest < 2.0**200 else np.inf
+    return w
+
+
+def scaled(points: np.ndarray) -> np.ndarray:
+    """The points times a power of two, so that the greatest coordinate is about 1, where that is exact.
+
+    It is unless that pushes the least one below 2^-1022; then the points themselves.
+    """
+    points = np.asarray(points, np.float64)
+    exponent = int(np.frexp(np.abs(points).max(initial=0))[1])
+    smaller = np.ldexp(points, -exponent)
+    return smaller if (np.ldexp(smaller, exponent) == points).all() else points
