@@ -122,7 +122,7 @@ class Delaunay:
             raise ValueError(msg)
 
         self.points = check_points(points2d, 2)
-        sites = exactly_scaled(self.points, "")
+        sites = exactly_scaled(self.points)
         options = _options(len(sites), method, threads, order, location, queue_length, subdivision, seed)
         prepared = time.perf_counter()
         outcome = triangulate(sites, options)

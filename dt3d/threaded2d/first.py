@@ -29,7 +29,7 @@ def first_triangle(points: np.ndarray, order: np.ndarray) -> np.ndarray:
     """
     if len(order) < 2:
         raise no_area(0, 1)
-    i, sign = _first(points, order, work_array())
+    i, sign = _first(points, order, work_array(points))
     if not sign:
         raise no_area(1, len(order))
     a, b = order[:2] if sign > 0 else order[1::-1]

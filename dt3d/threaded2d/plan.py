@@ -140,7 +140,7 @@ class _Run:
         self.options, self.store, self.order = options, store, order
         self.cells = empty_queue(options.queue_length)
         self.pool = circumcircle.empty_pool(options.threads)
-        self.work = [work_array() for _ in range(options.threads)]
+        self.work = [work_array(store.points) for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
         self.scratch = [
