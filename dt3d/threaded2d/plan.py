@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -64,6 +64,10 @@ class Options:
     seed: int
     helping: bool = False
     stumble: int = 0
+
+    def contended(self, stumble: int, helping: bool = False) -> Options:
+        """The same with threads that give way at random, for tests."""
+        return replace(self, stumble=stumble, helping=helping)
 
     @property
     def in_place(self) -> bool:
