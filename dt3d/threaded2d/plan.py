@@ -101,15 +101,15 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     if options.order == "random":
         site = np.sort(site)
     rows = np.ascontiguousarray(points[site])
-    order, bounds = insertion_order(rows, options.order, options.subdivision, _parts(options), options.seed)
+    order, bounds = insertion_order(rows, options.order, options.subdivision, parts_with_sites(options), options.seed)
     first = first_triangle(rows, order)
     seconds["order"] = time.perf_counter() - begun
 
     begun = time.perf_counter()
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
-    store.state[: _parts(options), NEXT] = bounds[:-1]
-    store.state[: _parts(options), END] = bounds[1:]
+    store.state[: parts_with_sites(options), NEXT] = bounds[:-1]
+    store.state[: parts_with_sites(options), END] = bounds[1:]
     store.shared[STUMBLE, 0] = options.stumble
     run = _Run(options, store, order)
     ticks, clock = sequential.now(), time.perf_counter()
@@ -132,7 +132,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
 
 
-def _parts(options: Options) -> int:
+def parts_with_sites(options: Options) -> int:
     """How many threads get sites: with the batch method all but the specialised one."""
     return options.threads - 1 if options.method == "batch" else options.threads
 
