@@ -128,7 +128,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     inserted_by = np.full(len(points), -1, np.int16)
     inserted_by[site] = store.by
     seconds["extraction"] = time.perf_counter() - begun
-    stats = _statistics(options, store, corrected, seconds, per_cycle)
+    stats = _statistics(run, corrected, seconds, per_cycle)
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
 
 
@@ -142,6 +142,7 @@ class _Run:
 
     def __init__(self, options: Options, store: Store, order: np.ndarray) -> None:
         self.options, self.store, self.order = options, store, order
+        self.cpu_seconds = [0.0] * options.threads
         self.cells = empty_queue(options.queue_length)
         self.pool = circumcircle.empty_pool(options.threads)
         self.work = [work_array(store.points) for _ in range(options.threads)]
@@ -158,10 +159,23 @@ class _Run:
     def to_the_end(self) -> None:
         """Run all threads until all sites are inserted."""
         while True:
-            results = together([self._task(k) for k in range(self.options.threads)], self.stop)
+            results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
             if sequential.FULL not in results:
                 return
             self.store.grow()
+
+    def _timed(self, k: int) -> Callable[[], Any]:
+        """The task of thread k, its processor time added up."""
+        task = self._task(k)
+
+        def run() -> Any:
+            begun = time.thread_time()
+            try:
+                return task()
+            finally:
+                self.cpu_seconds[k] += time.thread_time() - begun
+
+        return run
 
     def _task(self, k: int) -> Callable[[], Any]:
         o, s = self.options, self.store
@@ -190,9 +204,8 @@ class _Run:
         return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work[0])
 
 
-def _statistics(
-    options: Options, store: Store, corrected: int, seconds: dict[str, float], per_cycle: float
-) -> Statistics:
+def _statistics(run: _Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:
+    options, store = run.options, run.store
     state = store.state
 
     def counts(column: int) -> tuple[int, ...]:
@@ -221,6 +234,7 @@ def _statistics(
         growths=store.growths,
         queue_fill=float(state[-1, QUEUE_FILL]) / max(1, int(state[-1, INSERTED])),
         seconds=seconds,
+        cpu_seconds=tuple(run.cpu_seconds),
         location_seconds=times(LOCATION_CYCLES),
         change_seconds=times(CHANGE_CYCLES),
         wait_seconds=times(WAIT_CYCLES),

@@ -39,6 +39,9 @@ class Statistics:
         Mean number of elements that the specialised thread found in the queue.
     seconds : dict of str to float
         Wall time by phase: "input", "order", "insertion", "correction", "extraction", "total".
+    cpu_seconds : tuple of float
+        Processor time of each thread in the insertion, giving way included. On processors that nobody else uses the
+        largest, where threads do not wait, is the wall time.
     location_seconds, change_seconds, wait_seconds : tuple of float
         Time of each thread in location, in subdivision and legalisation, and waiting. Zeros where a method does
         not tell them apart (location "walk" in place).
@@ -63,6 +66,7 @@ class Statistics:
     growths: int
     queue_fill: float
     seconds: dict[str, float]
+    cpu_seconds: tuple[float, ...]
     location_seconds: tuple[float, ...]
     change_seconds: tuple[float, ...]
     wait_seconds: tuple[float, ...]
