@@ -18,8 +18,8 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
     Raises
     ------
     ValueError
-        If they are not numbers, not of shape (n, dimension), empty, masked, not finite, too many, or integers that
-        float64 cannot hold.
+        If they are not numbers, not of shape (n, dimension), empty, masked, not finite, too many, or integers
+        that float64 cannot hold.
     """
     if np.ma.isMaskedArray(points):
         msg = "points are a masked array; drop the masked rows first, for example points.compressed()"
@@ -27,7 +27,10 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
     try:
         given = np.asarray(points)
     except ValueError as error:
-        msg = f"points must be an array of shape (n, {dimension}); the rows that came do not have one length ({error})"
+        msg = (
+            f"points must be an array of shape (n, {dimension}); the rows that came do not have one length "
+            f"({error})"
+        )
         raise ValueError(msg) from None
     if given.dtype.kind not in "iuf":
         msg = f"points must be real numbers of shape (n, {dimension}), got dtype {given.dtype}"

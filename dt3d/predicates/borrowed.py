@@ -1,7 +1,7 @@
 """Arrays without an owner, for compiled kernels.
 
-numba counts the references of every array that goes from one compiled function to another, with an atomic addition
-and subtraction each. They cost more than a filtered predicate does, and threads that share an array
+numba counts the references of every array that goes from one compiled function to another, with an atomic
+addition and subtraction each. They cost more than a filtered predicate does, and threads that share an array
 wait for each other's. A borrowed array has no count.
 """
 

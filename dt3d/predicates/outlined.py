@@ -1,8 +1,8 @@
 """Calls that stay calls: rarely needed compiled code that must not be inlined into the code around it.
 
-LLVM inlines an exact stage into each of the many places where a predicate is used. What is executed there, the
-filter, then loses its registers to it, and counts references of arrays that only the exact stage needs; threads
-that count references of one array wait for each other.
+LLVM inlines an exact stage into each of the many places where a predicate is used. What is executed there,
+the filter, then loses its registers to it, and counts references of arrays that only the exact stage needs;
+threads that count references of one array wait for each other.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Atomic words for compiled threads: load, store, add, exchange, compare-and-swap, and giving way.
 
-A plain read of an array in a loop may be hoisted out of it by LLVM, and a plain write moved past another; words
-that threads share are only touched through these. They are LLVM's own atomics, sequentially consistent unless
-their names say otherwise, on elements of NumPy arrays of 32- or 64-bit integers. Indices are not checked, and
-negative ones do not wrap around.
+A plain read of an array in a loop may be hoisted out of it by LLVM, and a plain write moved past another;
+words that threads share are only touched through these. They are LLVM's own atomics, sequentially consistent
+unless their names say otherwise, on elements of NumPy arrays of 32- or 64-bit integers. Indices are not
+checked, and negative ones do not wrap around.
 """
 
 from __future__ import annotations
@@ -22,17 +22,24 @@ from numba.extending import intrinsic
 
 def _element(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any) -> Any:
     """A pointer to one element of an array; the index is an integer or a tuple of them."""
+    parts = _parts(index_type)
     values = cgutils.unpack_tuple(builder, index) if isinstance(index_type, types.BaseTuple) else [index]
-    parts = index_type.types if isinstance(index_type, types.BaseTuple) else [index_type]
     words = [context.cast(builder, v, t, types.intp) for v, t in zip(values, parts, strict=True)]
     native = context.make_array(array_type)(context, builder, array)
     return cgutils.get_item_pointer(context, builder, array_type, native, words, wraparound=False)
 
 
+def _parts(index_type: Any) -> tuple[Any, ...]:
+    """The types of an index, one for each dimension."""
+    return tuple(getattr(index_type, "types", (index_type,)))
+
+
 def _check(array: Any, index: Any) -> None:
     """Refuse at compile time what has no atomic word."""
-    parts = len(index.types) if isinstance(index, types.BaseTuple) else 1
-    if not (isinstance(array, types.Array) and isinstance(array.dtype, types.Integer) and parts == array.ndim):
+    parts = len(_parts(index))
+    if not (
+        isinstance(array, types.Array) and isinstance(array.dtype, types.Integer) and parts == array.ndim
+    ):
         msg = f"atomics work on single elements of integer arrays, got {array} at {index}"
         raise TypingError(msg)
 
@@ -127,14 +134,30 @@ def cycles(typingctx: Any) -> Any:
 
 
 if sys.platform == "win32":
-    # numba resolves the symbol by its name in the process
-    _YIELD = "SwitchToThread"
-    ctypes.windll.kernel32.SwitchToThread  # noqa: B018  (loads it, so that the name resolves)
+    # numba resolves symbols by their names in the process
+    _YIELD, _SLEEP, _NAP = "SwitchToThread", "Sleep", 0
+    ctypes.windll.kernel32.Sleep(0)
 else:
-    _YIELD = "sched_yield"
+    _YIELD, _SLEEP, _NAP = "sched_yield", "usleep", 30
 
 give_way = types.ExternalFunction(_YIELD, types.int32())
 """give_way(): lets another thread have the processor."""
+_sleep = types.ExternalFunction(_SLEEP, types.int32(types.uint32))
+
+PATIENCE = 64
+
+
+@numba.njit(cache=True)
+def wait_a_little(turn):
+    """Give way; from the `PATIENCE`-th turn in a row on, sleep for some 30 microseconds each time.
+
+    Short waits end while a thread gives way. In long ones, of several threads for one, giving way takes more
+    time from the thread that is waited for than the wait is worth.
+    """
+    if turn < PATIENCE:
+        give_way()
+    else:
+        _sleep(np.uint32(_NAP))
 
 
 @numba.njit(cache=True)
@@ -151,5 +174,6 @@ def release(words, at):
 
 
 def padded(n: int) -> np.ndarray:
-    """n words, int64 (n, 16), of which only column 0 is meant to be used: each has two cache lines of its own."""
+    """n words, int64 (n, 16), of which only column 0 is meant to be used: each has two cache lines of its
+    own."""
     return np.zeros((n, 16), np.int64)

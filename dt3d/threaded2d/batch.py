@@ -1,10 +1,12 @@
-"""The batch method: searching threads, a queue, one specialised thread (Kohout et al. 2004, section 3.3, Algorithm 2).
+"""The batch method: searching threads, a queue, one specialised thread (Kohout et al. 2004, section 3.3,
+Algorithm 2).
 
-A searching thread locates a site as far as the parents of the leaves and puts it into the queue. The specialised thread
-finishes the location, subdivides and legalises. In the paper's variant a searching thread that finds the queue full takes
-an element, finishes its location, and puts it back.
+A searching thread locates a site as far as the parents of the leaves and puts it into the queue. The
+specialised thread finishes the location, subdivides and legalises. In the paper's variant a searching thread
+that finds the queue full takes an element, finishes its location, and puts it back.
 
-Both kinds of thread go in steps that return what happened, so that a scheduler can run them in virtual time too.
+Both kinds of thread go in steps that return what happened, so that a scheduler can run them in virtual time
+too.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from __future__ import annotations
 import numba
 
 from ..predicates.borrowed import borrowed
-from .atomics import cycles, give_way, load, load_acquire
+from .atomics import cycles, load, load_acquire, wait_a_little
 from .dag import child_of, descend
 from .flips import insert
 from .geometry import root_of
@@ -126,7 +128,7 @@ def run_searching(points, nodes, shared, state, order, by, me, cells, walking, h
     """A searching thread until its sites are in the queue; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     order, by, cells, w = borrowed(order), borrowed(by), borrowed(cells), borrowed(w)
-    waiting = False
+    waiting = 0
     begun = cycles()
     while True:
         if load(shared, (STOP, 0)) != 0:
@@ -135,15 +137,20 @@ def run_searching(points, nodes, shared, state, order, by, me, cells, walking, h
             return FULL
         did = search_step(points, nodes, shared, state, order, by, cells, me, walking, helping, w)
         if did == FINISHED:
+            state[me, LOCATION_CYCLES] += cycles() - begun
             return DONE
-        state[me, WAITS] += did == WAITING and not waiting
-        waiting = did == WAITING
-        if waiting:
-            give_way()
+        if (did == WAITING) != (waiting > 0):
+            # a wait begins or ends
+            ended = cycles()
+            state[me, WAIT_CYCLES if waiting else LOCATION_CYCLES] += ended - begun
+            begun = ended
+            state[me, WAITS] += did == WAITING
+        if did == WAITING:
+            wait_a_little(waiting)
+            waiting += 1
+        else:
+            waiting = 0
         stumble(shared, state, me)
-        ended = cycles()
-        state[me, WAIT_CYCLES if waiting else LOCATION_CYCLES] += ended - begun
-        begun = ended
 
 
 @numba.njit(nogil=True, cache=True)
@@ -151,7 +158,7 @@ def run_specialised(points, nodes, shared, state, me, cells, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     cells, w = borrowed(cells), borrowed(w)
-    waiting = False
+    waiting = 0
     begun = cycles()
     while True:
         if load(shared, (STOP, 0)) != 0:
@@ -160,12 +167,17 @@ def run_specialised(points, nodes, shared, state, me, cells, walking, w):
             return FULL
         did = specialised_step(points, nodes, shared, state, cells, me, walking, w)
         if did == FINISHED:
+            state[me, CHANGE_CYCLES] += cycles() - begun
             return DONE
-        state[me, WAITS] += did == WAITING and not waiting
-        waiting = did == WAITING
-        if waiting:
-            give_way()
+        if (did == WAITING) != (waiting > 0):
+            # a wait begins or ends
+            ended = cycles()
+            state[me, WAIT_CYCLES if waiting else CHANGE_CYCLES] += ended - begun
+            begun = ended
+            state[me, WAITS] += did == WAITING
+        if did == WAITING:
+            wait_a_little(waiting)
+            waiting += 1
+        else:
+            waiting = 0
         stumble(shared, state, me)
-        ended = cycles()
-        state[me, WAIT_CYCLES if waiting else CHANGE_CYCLES] += ended - begun
-        begun = ended

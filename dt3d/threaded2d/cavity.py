@@ -1,7 +1,7 @@
 """The triangles in conflict with a site, with exclusive access to them and to those around them.
 
-The conflicts of a Delaunay triangulation with one more site are connected and have no vertex inside, so that a
-walk through them, always leaving by the next edge counter-clockwise, meets each once and finds the edges
+The conflicts of a Delaunay triangulation with one more site are connected and have no vertex inside, so that
+a walk through them, always leaving by the next edge counter-clockwise, meets each once and finds the edges
 around them in order (A. Bowyer 1981, D. F. Watson 1981).
 """
 
@@ -44,13 +44,14 @@ def in_conflict(points, nodes, t, q, w):
 def claim(points, nodes, t, q, lock, held, cavity, rim, w):
     """Find the conflicts with q from t on, into ``cavity``, and the edges around them, into ``rim``.
 
-    ``rim`` gets triples: the edge beyond as 4 u + j, and the vertices from and to which it leads counter-clockwise.
-    With a ``lock`` other than 0 all triangles met are locked with it and entered into ``held``.
+    ``rim`` gets triples: the edge beyond as 4 u + j, and the vertices from and to which it leads
+    counter-clockwise. With a ``lock`` other than 0 all triangles met are locked with it and entered into
+    ``held``.
 
     Returns
     -------
-    size of the cavity, edges of the rim, how many are held; the size is `BUSY` where another thread has one of
-    them, or t is not in conflict any more.
+    size of the cavity, edges of the rim, how many are held; the size is `BUSY` where another thread has one
+    of them, or t is not in conflict any more.
     """
     count = 0
     if lock != 0:
@@ -86,6 +87,10 @@ def claim(points, nodes, t, q, lock, held, cavity, rim, w):
             cavity[top] = 4 * u + following
             cavity[top + 1] = 4 * u + previous
         else:
-            rim[3 * edges], rim[3 * edges + 1], rim[3 * edges + 2] = edge, nodes[u, previous], nodes[u, following]
+            rim[3 * edges], rim[3 * edges + 1], rim[3 * edges + 2] = (
+                edge,
+                nodes[u, previous],
+                nodes[u, following],
+            )
             edges += 1
     return size, edges, count

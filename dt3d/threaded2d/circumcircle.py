@@ -1,15 +1,15 @@
 """The circum-circle method: geometry tells who has to wait (Kohout et al. 2004, section 3.4, Algorithm 3).
 
-An insertion changes only triangles that are in conflict with its site, or have it as a vertex. Every thread publishes
-its site in a pool before it changes anything. It subdivides or flips when no other site of the pool is in
-conflict with, or a vertex of, the triangles that change and their neighbours; otherwise it waits for the thread
-whose site that is to finish it. As each publishes before it looks, of two that want the same at least one sees
-the other.
+An insertion changes only triangles that are in conflict with its site, or have it as a vertex. Every thread
+publishes its site in a pool before it changes anything. It subdivides or flips when no other site of the pool
+is in conflict with, or a vertex of, the triangles that change and their neighbours; otherwise it waits for
+the thread whose site that is to finish it. As each publishes before it looks, of two that want the same at
+least one sees the other.
 
-Two that see each other would wait for ever. So a thread looks, in a short critical section, whether the one it would
-wait for waits for it, through others perhaps. Then it goes on, since those cannot, and flags their exceptional state:
-after they wake they locate again, or, if they were legalising, give up their remaining swaps. Those are made up for at the end
-(`correction`).
+Two that see each other would wait for ever. So a thread looks, in a short critical section, whether the one
+it would wait for waits for it, through others perhaps. Then it goes on, since those cannot, and flags their
+exceptional state: after they wake they locate again, or, if they were legalising, give up their remaining
+swaps. Those are made up for at the end (`correction`).
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 
 from ..predicates.borrowed import borrowed
 from ..predicates.filtered2d import orient2d
-from .atomics import acquire, cycles, give_way, load, load_acquire, release, store
+from .atomics import acquire, cycles, load, load_acquire, release, store, wait_a_little
 from .batch import CHANGED, FINISHED, LOCATED, WAITING
 from .dag import descend, locate
 from .flips import flip, illegal, subdivide
@@ -55,8 +55,8 @@ from .store import (
 )
 from .walk import walk_history
 
-# columns of `pool`, a row for each thread: its site or -1, how many it has finished, for whom it waits or -1, and
-# whether another one made use of its waiting
+# columns of `pool`, a row for each thread: its site or -1, how many it has finished, for whom it waits or -1,
+# and whether another one made use of its waiting
 POOL_SITE, SERIAL, WAITS_FOR, EXCEPTIONAL = range(4)
 
 # phases: next site, subdivision, legalisation
@@ -93,7 +93,8 @@ def _touches(points, nodes, t, q, w):
 
 @numba.njit(cache=True, forceinline=True)
 def _blocker(points, nodes, state, pool, me, triangles, count, w):
-    """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished; or `NOBODY`."""
+    """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished;
+    or `NOBODY`."""
     for i in range(len(pool)):
         if i == me:
             continue
@@ -139,7 +140,8 @@ def _is_leaf(nodes, t):
 
 @numba.njit(cache=True, forceinline=True)
 def _edge_through(points, nodes, t, q, w):
-    """Which edge of t site q, which t contains, lies on; -1 where on none. Edges at infinity pass through no site."""
+    """Which edge of t site q, which t contains, lies on; -1 where on none. Edges at infinity pass through no
+    site."""
     a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
     if b >= 0 and c >= 0 and orient2d(points, b, c, q, w) == 0:
         return 0
@@ -175,7 +177,12 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     if i != NOBODY:
         return _wait_for(shared, state, pool, me, i, serial)
     # what was looked at must be what is there
-    if not _is_leaf(nodes, t) or a != _edge(nodes, t, 0) or b != _edge(nodes, t, 1) or c != _edge(nodes, t, 2):
+    if (
+        not _is_leaf(nodes, t)
+        or a != _edge(nodes, t, 0)
+        or b != _edge(nodes, t, 1)
+        or c != _edge(nodes, t, 2)
+    ):
         return CHANGED
     if k >= 0 and not (
         _is_leaf(nodes, u) and d == _edge(nodes, u, (j + 1) % 3) and e == _edge(nodes, u, (j + 2) % 3)
@@ -264,7 +271,7 @@ def run(points, nodes, shared, state, order, by, me, pool, walking, w):
     """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     order, by, pool, w = borrowed(order), borrowed(by), borrowed(pool), borrowed(w)
-    waiting = False
+    waiting = 0
     begun = cycles()
     while True:
         if load(shared, (STOP, 0)) != 0:
@@ -274,14 +281,16 @@ def run(points, nodes, shared, state, order, by, me, pool, walking, w):
         did = step(points, nodes, shared, state, order, by, pool, me, walking, w)
         if did == FINISHED:
             return DONE
-        state[me, WAITS] += did == WAITING and not waiting
-        waiting = did == WAITING
-        if waiting:
-            give_way()
-        stumble(shared, state, me)
-        ended = cycles()
-        if waiting:
-            state[me, WAIT_CYCLES] += ended - begun
+        if did != CHANGED or waiting > 0 or state[me, PHASE] == BEGIN:
+            # a location, a wait or an insertion ends
+            ended = cycles()
+            column = WAIT_CYCLES if did == WAITING else (LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES)
+            state[me, column] += ended - begun
+            begun = ended
+        if did == WAITING:
+            state[me, WAITS] += waiting == 0
+            wait_a_little(waiting)
+            waiting += 1
         else:
-            state[me, LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES] += ended - begun
-        begun = ended
+            waiting = 0
+        stumble(shared, state, me)

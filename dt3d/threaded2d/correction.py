@@ -1,7 +1,8 @@
 """The sequential correction of swaps that were given up (Kohout et al. 2004, section 3.4).
 
-Any triangulation becomes the Delaunay triangulation when illegal edges are flipped until there are none (C. L. Lawson:
-Transforming triangulations, Discrete Mathematics 3, 1972). This is done in place: the history is not needed any more.
+Any triangulation becomes the Delaunay triangulation when illegal edges are flipped until there are none (C.
+L. Lawson: Transforming triangulations, Discrete Mathematics 3, 1972). This is done in place: the history is
+not needed any more.
 """
 
 from __future__ import annotations

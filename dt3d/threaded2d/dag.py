@@ -1,6 +1,7 @@
 """Location in the history: from a root to the leaf that contains a site (Kohout et al. 2004, section 3.1).
 
-Nothing is locked. A node's vertices never change, and its children are written before the word that names them.
+Nothing is locked. A node's vertices never change, and its children are written before the word that names
+them.
 """
 
 from __future__ import annotations

@@ -24,22 +24,23 @@ MOST_THREADS = 64
 class Delaunay:
     """The Delaunay triangulation of points in the plane, by threads that insert sites into one structure.
 
-    J. Kohout, I. Kolingerova, J. Zara: Practically oriented parallel Delaunay triangulation in E2 for computers
-    with shared memory. Computers & Graphics 28, 2004. The result is exact, and the symbolic perturbation makes it
-    unique: every method, number of threads, order and interleaving gives the same triangles.
+    J. Kohout, I. Kolingerova, J. Zara: Practically oriented parallel Delaunay triangulation in E2 for
+    computers with shared memory. Computers & Graphics 28, 2004. The result is exact, and the symbolic
+    perturbation makes it unique: every method, number of threads, order and interleaving gives the same
+    triangles.
 
     Parameters
     ----------
     points2d : array_like, real (n, 2)
         The sites. Equal ones are used once, see `duplicates`.
     method : str
-        "auto": the fastest combination on this machine, "optimistic" with location="walk" and order="brio", whatever
-        these say. "sequential"; "batch": threads that locate and one that changes; "circumcircle": all do all, and
-        geometry tells who has to wait; "pessimistic": changes in a critical section; "optimistic": exclusive
-        access triangle by triangle.
+        "auto": the fastest combination on this machine, "optimistic" with location="walk" and order="brio",
+        whatever these say. "sequential"; "batch": threads that locate and one that changes; "circumcircle":
+        all do all, and geometry tells who has to wait; "pessimistic": changes in a critical section;
+        "optimistic": exclusive access triangle by triangle.
     threads : int, optional
-        All threads. By default one for "sequential", for "batch" one more than the searching threads that suit n,
-        and otherwise as many as there are processors.
+        All threads. By default one for "sequential", for "batch" one more than the searching threads that
+        suit n, and otherwise as many as there are processors.
     order : "brio" or "random"
         Of insertion: random rounds along a space-filling curve, or random as in the paper.
     location : "dag" or "walk"
@@ -142,7 +143,8 @@ class Delaunay:
         return np.column_stack([self.triangles[t, (k + 1) % 3], self.triangles[t, (k + 2) % 3]])
 
     def verify(self) -> Verification:
-        """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails."""
+        """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it
+        fails."""
         from .verification import verify
 
         return verify(self.points, self.triangles, self.neighbors, self.duplicates)
@@ -192,8 +194,8 @@ def _options(
 def searching_threads(n: int, processors: int) -> int:
     """How many for the batch method with n sites (Kohout et al. 2004, section 4.2 and Table 1).
 
-    Two searching threads to the specialised one for small sets and three from 50,000 sites on; with four processors
-    or more, four above 100,000 sites and five above 1.5 million.
+    Two searching threads to the specialised one for small sets and three from 50,000 sites on; with four
+    processors or more, four above 100,000 sites and five above 1.5 million.
     """
     if processors >= 4 and n > 100_000:
         return 5 if n > 1_500_000 else 4

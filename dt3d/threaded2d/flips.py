@@ -11,7 +11,8 @@ from .store import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
 
 @numba.njit(cache=True, forceinline=True)
 def _write(nodes, t, p, a, b, outer, following, previous, maker, lock):
-    """The star triangle pab: across ab lies the edge ``outer``, beside it the star's next and previous ones."""
+    """The star triangle pab: across ab lies the edge ``outer``, beside it the star's next and previous
+    ones."""
     nodes[t, 0], nodes[t, 1], nodes[t, 2] = p, a, b
     nodes[t, NEIGHBOR], nodes[t, NEIGHBOR + 1], nodes[t, NEIGHBOR + 2] = outer, following, previous
     nodes[t, CHILD] = -1 - maker
@@ -74,7 +75,8 @@ def illegal(points, nodes, f, w):
 def insert(points, nodes, shared, state, me, t, p, lock, w):
     """Subdivide leaf t, which contains p, and legalise: once about the star of p.
 
-    Returns one of the star's triangles. All that is changed must be this thread's own for as long as it takes.
+    Returns one of the star's triangles. All that is changed must be this thread's own for as long as it
+    takes.
     """
     f = subdivide(nodes, shared, state, me, t, p, lock)
     last = nodes[f, 1]  # the edge from p to this vertex is never flipped

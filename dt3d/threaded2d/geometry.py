@@ -1,12 +1,13 @@
 """Conflict and side, for sites and the vertices at infinity; exact.
 
-A site is in conflict with a triangle if it lies in its circumcircle, where sites have the infinitesimal heights
-of the symbolic perturbation, so that it is never on it. The circle of a ghost, the triangle beyond the hull edge
-ab, is the half-plane beyond ab, and of its border the part between a and b.
+A site is in conflict with a triangle if it lies in its circumcircle, where sites have the infinitesimal
+heights of the symbolic perturbation, so that it is never on it. The circle of a ghost, the triangle beyond
+the hull edge ab, is the half-plane beyond ab, and of its border the part between a and b.
 
 Where the history has to tell which child of a ghost contains a site, the vertex at infinity is the end of the
-ray that leads away from a centre. The centre is infinitesimally close to the first vertex of the first triangle,
-and inside it: s0 + e (s1 - s0) + e^2 (s2 - s0). So no two sites lie on one ray, and each ray meets the hull once.
+ray that leads away from a centre. The centre is infinitesimally close to the first vertex of the first
+triangle, and inside it: s0 + e (s1 - s0) + e^2 (s2 - s0). So no two sites lie on one ray, and each ray meets
+the hull once.
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ def _before(points, a, b):
 def _inside_tied(points, a, b, c, q, w):
     """The perturbed in-circle test of a site on the circle of abc: the first of the four, in order, decides.
 
-    As `predicates.perturbed2d`, but by comparing coordinates: ranks would cost a sort of all sites, which is longer
-    than a tenth of the triangulation.
+    As `predicates.perturbed2d`, but by comparing coordinates: ranks would cost a sort of all sites, which is
+    longer than a tenth of the triangulation.
     """
     first, k = q, 3
     if _before(points, a, first):
@@ -74,7 +75,8 @@ def _call_conflicts_with_ghost(typingctx, points, a, b, q, w):
 
 @numba.njit(cache=True, forceinline=True)
 def conflicts(points, a, b, c, q, w):
-    """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of them."""
+    """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of
+    them."""
     if min(a, b, c) >= 0:
         sign = in_circle(points, a, b, c, q, w)
         return sign > 0 if sign != 0 else _call_inside_tied(points, a, b, c, q, w)
@@ -103,7 +105,8 @@ def _call_side_of_ray(typingctx, points, s0, s1, s2, p, q, w):
 
 @numba.njit(cache=True, forceinline=True)
 def side(points, nodes, p, v, q, w):
-    """Where q lies from the line that leads from site p to v, a site or infinite: 1 left, -1 right, 0 on it."""
+    """Where q lies from the line that leads from site p to v, a site or infinite: 1 left, -1 right, 0 on
+    it."""
     if v >= 0:
         return orient2d(points, p, v, q, w)
     return _call_side_of_ray(points, nodes[0, 0], nodes[0, 1], nodes[0, 2], p, q, w)

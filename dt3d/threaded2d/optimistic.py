@@ -1,8 +1,9 @@
 """The optimistic method: exclusive access node by node (Kolingerova and Kohout 2002).
 
-Before a thread changes anything it has locked all triangles in conflict with its site and those around them; if it
-does not get one, it gives all of them back and locates again from where it was. So every insertion begins and ends with a
-Delaunay triangulation, no swap is given up, and no thread waits for another while it holds anything.
+Before a thread changes anything it has locked all triangles in conflict with its site and those around them;
+if it does not get one, it gives all of them back and locates again from where it was. So every insertion
+begins and ends with a Delaunay triangulation, no swap is given up, and no thread waits for another while it
+holds anything.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import numba
 
 from ..predicates.borrowed import borrowed
-from .atomics import cycles, give_way, load, store_release
+from .atomics import cycles, load, store_release, wait_a_little
 from .batch import CHANGED, FINISHED, LOCATED, WAITING
 from .cavity import BUSY, claim, give_back
 from .dag import descend, locate
@@ -38,7 +39,6 @@ from .store import (
     WAIT_CYCLES,
     stumble,
 )
-
 
 # phases: next site, exclusive access, change
 BEGIN, CLAIM, CHANGE = range(3)
@@ -100,6 +100,7 @@ def run(points, nodes, shared, state, order, by, me, scratch, w):
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     order, by, w = borrowed(order), borrowed(by), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
+    waiting = 0
     begun = cycles()
     while True:
         # whoever holds triangles goes on until it has given them back
@@ -110,12 +111,13 @@ def run(points, nodes, shared, state, order, by, me, scratch, w):
         did = step(points, nodes, shared, state, order, by, held, cavity, rim, me, w)
         if did == FINISHED:
             return DONE
-        if did == WAITING:
-            give_way()
-        stumble(shared, state, me)
         ended = cycles()
         if did == WAITING:
             state[me, WAIT_CYCLES] += ended - begun
+            wait_a_little(waiting)
+            waiting += 1
         else:
             state[me, LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES] += ended - begun
+            waiting = 0
+        stumble(shared, state, me)
         begun = ended

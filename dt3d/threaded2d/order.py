@@ -1,8 +1,8 @@
 """The order of sites in memory and of their insertion; and which of them are duplicates.
 
-A biased randomised order (N. Amenta, S. Choi, G. Rote: Incremental constructions con BRIO, SoCG 2003): rounds that
-double in size at random, each along a space-filling curve. It keeps the expected cost of random insertion, and
-what is needed next is near in memory.
+A biased randomised order (N. Amenta, S. Choi, G. Rote: Incremental constructions con BRIO, SoCG 2003): rounds
+that double in size at random, each along a space-filling curve. It keeps the expected cost of random
+insertion, and what is needed next is near in memory.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def _extent(points):
 def along_curve(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Sites sorted along Hilbert's curve, and pairs (a later copy, the first one): int64 (m,), int32 (k, 2).
 
-    ``points`` are float64 (n, 2), finite, with no difference of coordinates that overflows. Of equal sites the one
-    of least index is kept.
+    ``points`` are float64 (n, 2), finite, with no difference of coordinates that overflows. Of equal sites
+    the one of least index is kept.
     """
     n = len(points)
     index_bits = max(1, int(n - 1).bit_length())
@@ -138,4 +138,4 @@ def brio(part: np.ndarray, parts: int, seed: int) -> tuple[np.ndarray, np.ndarra
     rounds = rounds_of(len(part))
     order, starts = _sort_rounds(part, parts, seed, rounds)
     begin = starts[: parts * rounds].reshape(parts, rounds)
-    return order, np.column_stack([begin, starts[rounds :: rounds]])
+    return order, np.column_stack([begin, starts[rounds::rounds]])

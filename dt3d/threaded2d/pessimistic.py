@@ -1,4 +1,5 @@
-"""The pessimistic method: location in all threads, changes in one critical section (Kolingerova and Kohout 2000)."""
+"""The pessimistic method: location in all threads, changes in one critical section (Kolingerova and Kohout
+2000)."""
 
 from __future__ import annotations
 

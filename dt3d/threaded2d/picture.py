@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._mesh import import_pyvista
+from .._mesh import INSTALL_VIEW, import_pyvista
 
 if TYPE_CHECKING:
     import pyvista
@@ -60,7 +60,7 @@ def plot(tri: Any, ax: Any = None, *, colormap: str = "tab10", edges: bool | Non
             from matplotlib.backends.backend_agg import FigureCanvasAgg
             from matplotlib.figure import Figure
         except ImportError as error:
-            msg = f"this needs matplotlib, which cannot be loaded ({error}); install it with: pip install 'dt3d[view]'"
+            msg = f"this needs matplotlib, which cannot be loaded ({error}); {INSTALL_VIEW}"
             raise ImportError(msg) from error
         figure = Figure(figsize=(6, 6), layout="constrained")
         FigureCanvasAgg(figure)

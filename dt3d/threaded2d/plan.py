@@ -51,8 +51,8 @@ LOCATIONS = ("dag", "walk")
 class Options:
     """What to run, after "auto" and None have been replaced.
 
-    ``helping`` is the batch method's variant in which searching threads that find the queue full finish locations;
-    with ``stumble`` threads give way at random, once in so many chances.
+    ``helping`` is the batch method's variant in which searching threads that find the queue full finish
+    locations; with ``stumble`` threads give way at random, once in so many chances.
     """
 
     method: str
@@ -101,7 +101,14 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     if options.order == "random":
         site = np.sort(site)
     rows = np.ascontiguousarray(points[site])
-    order, bounds = insertion_order(rows, options.order, options.subdivision, parts_with_sites(options), options.seed)
+    order, bounds = insertion_order(
+        rows,
+        options.order,
+        options.subdivision,
+        parts_with_sites(options),
+        options.seed,
+        apart=options.method != "batch",
+    )
     first = first_triangle(rows, order)
     seconds["order"] = time.perf_counter() - begun
 

@@ -1,8 +1,8 @@
 """A bounded queue of sites and where they were located, for any number of threads at both ends.
 
 D. Vyukov's bounded queue: every cell has a number that says whose turn it is, so that a thread needs one
-compare-and-swap, and one that loses the processor in between holds nobody up but at its own cell. The paper uses a
-short critical section instead.
+compare-and-swap, and one that loses the processor in between holds nobody up but at its own cell. The paper
+uses a short critical section instead.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Insertion in place, without a history: the conflicts give way to the star of the site.
 
-The two triangles that an insertion adds have the numbers 4 + 2 i and 5 + 2 i, where i is the site's place in the
-order, so that threads need not ask each other for memory.
+The two triangles that an insertion adds have the numbers 4 + 2 i and 5 + 2 i, where i is the site's place in
+the order, so that threads need not ask each other for memory.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
 def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
     """Insert order[NEXT] to order[END - 1] of this thread, each from the triangle where the last one was.
 
-    With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive access
-    to its conflicts and the triangles around them, and begins again where it does not get it.
+    With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive
+    access to its conflicts and the triangles around them, and begins again where it does not get it.
     """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     order, by, w = borrowed(order), borrowed(by), borrowed(w)

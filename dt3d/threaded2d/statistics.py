@@ -40,11 +40,11 @@ class Statistics:
     seconds : dict of str to float
         Wall time by phase: "input", "order", "insertion", "correction", "extraction", "total".
     cpu_seconds : tuple of float
-        Processor time of each thread in the insertion, giving way included. On processors that nobody else uses the
-        largest, where threads do not wait, is the wall time.
+        Processor time of each thread in the insertion, giving way included. On processors that nobody else
+        uses the largest, where threads do not wait, is the wall time.
     location_seconds, change_seconds, wait_seconds : tuple of float
-        Time of each thread in location, in subdivision and legalisation, and waiting. Zeros where a method does
-        not tell them apart (location "walk" in place).
+        Time of each thread in location, in subdivision and legalisation, and waiting. Zeros where a method
+        does not tell them apart (location "walk" in place).
     """
 
     method: str

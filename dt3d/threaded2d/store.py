@@ -2,19 +2,19 @@
 
 ``nodes[t]`` is eight int32 words, half a cache line:
 
-* three vertices, counter-clockwise, rows of the points or `INFINITE`. Beyond each edge of the hull lies a ghost,
-  a triangle with the vertex at infinity, so that the triangulation covers the plane;
-* three neighbours, the k-th across the edge opposite the k-th vertex, as 4 u + j where that edge is opposite the
-  j-th vertex of u;
-* the children. Of a triangle that is no more: 2 c + 1 where it was subdivided, into c, c+1, c+2; and 2 c where an
-  edge of it was flipped, into c, c+1. Of a leaf, a triangle of the present triangulation, -1 - m, where m is
-  the thread that made it;
+* three vertices, counter-clockwise, rows of the points or `INFINITE`. Beyond each edge of the hull lies a
+  ghost, a triangle with the vertex at infinity, so that the triangulation covers the plane;
+* three neighbours, the k-th across the edge opposite the k-th vertex, as 4 u + j where that edge is opposite
+  the j-th vertex of u;
+* the children. Of a triangle that is no more: 2 c + 1 where it was subdivided, into c, c+1, c+2; and 2 c
+  where an edge of it was flipped, into c, c+1. Of a leaf, a triangle of the present triangulation, -1 - m,
+  where m is the thread that made it;
 * a lock: 0, or the thread that has exclusive access.
 
-Node 0 is the first triangle and nodes 1 to 3 are the ghosts around it: the roots of the directed acyclic graph
-that the children make (Kohout, Kolingerova, Zara 2004, section 3.1; L. Guibas, D. Knuth, M. Sharir: Randomized
-incremental construction of Delaunay and Voronoi diagrams, Algorithmica 7, 1992). In every triangle made by an
-insertion, the inserted site is the first vertex.
+Node 0 is the first triangle and nodes 1 to 3 are the ghosts around it: the roots of the directed acyclic
+graph that the children make (Kohout, Kolingerova, Zara 2004, section 3.1; L. Guibas, D. Knuth, M. Sharir:
+Randomized incremental construction of Delaunay and Voronoi diagrams, Algorithmica 7, 1992). In every triangle
+made by an insertion, the inserted site is the first vertex.
 """
 
 from __future__ import annotations
@@ -81,7 +81,8 @@ def fresh(state, me, shared, count):
 
 @numba.njit(cache=True)
 def stumble(shared, state, me):
-    """Give way at random, once in shared[STUMBLE] calls; never where that is 0. For tests under contention."""
+    """Give way at random, once in shared[STUMBLE] calls; never where that is 0. For tests under
+    contention."""
     if shared[STUMBLE, 0] != 0:
         x = state[me, RANDOM]
         x ^= (x << 13) & 0x7FFFFFFFFFFFFFFF
@@ -109,7 +110,9 @@ class Store:
         The thread that inserted each site; -1 if none has yet.
     """
 
-    def __init__(self, points: np.ndarray, first: np.ndarray, threads: int, capacity: int | None = None) -> None:
+    def __init__(
+        self, points: np.ndarray, first: np.ndarray, threads: int, capacity: int | None = None
+    ) -> None:
         self.points = points
         self.reserve = 4 * len(points) + 4 * BLOCK * threads + 64
         soft = NODES_PER_SITE * len(points) + 4 * BLOCK * threads
@@ -129,14 +132,14 @@ class Store:
     def grow(self) -> None:
         """Half as many nodes again. No thread may be running.
 
-        One insertion flips fewer edges than there are, and insertions at the same time flip different ones; so
-        `reserve` is what those that began below the limit may need beyond it.
+        One insertion flips fewer edges than there are, and insertions at the same time flip different ones;
+        so `reserve` is what those that began below the limit may need beyond it.
         """
         soft = int(self.shared[SOFT_LIMIT, 0] * 3 // 2)
         if 4 * (soft + self.reserve) > 2**31 - 1:
             msg = (
-                f"the history of {len(self.points)} sites has more triangles than 32-bit numbers can name; use "
-                f"method='auto', which keeps none"
+                f"the history of {len(self.points)} sites has more triangles than 32-bit numbers can name; "
+                f"use method='auto', which keeps none"
             )
             raise ValueError(msg)
         longer = np.zeros((soft + self.reserve, 8), np.int32)

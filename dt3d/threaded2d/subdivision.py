@@ -13,8 +13,8 @@ SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.ndarray:
     """The part of each site, 0 to parts - 1, of equal sizes up to one; int32 (n,).
 
-    "random"; "x-slabs" by the first coordinate; "distance" from the origin of coordinates; "curve": stretches of the
-    order of the rows, which is that of a space-filling curve where sites are inserted in that order.
+    "random"; "x-slabs" by the first coordinate; "distance" from the origin of coordinates; "curve": stretches
+    of the order of the rows, which is that of a space-filling curve where sites are inserted in that order.
     """
     n = len(points)
     slots = (np.arange(n) * parts // n).astype(np.int32)
@@ -48,17 +48,19 @@ def _rotate(order, starts):
 
 
 def insertion_order(
-    points: np.ndarray, order: str, subdivision: str, parts: int, seed: int
+    points: np.ndarray, order: str, subdivision: str, parts: int, seed: int, apart: bool = True
 ) -> tuple[np.ndarray, np.ndarray]:
-    """All sites, part by part: int64 (n,), and where the parts begin and the last one ends: int64 (parts + 1,).
+    """All sites, part by part: int64 (n,), and where the parts begin and the last one ends: int64 (parts +
+    1,).
 
-    In the order "brio" the points lie along the curve. Threads whose parts lie among each other begin each round at
-    different places of it, so that they seldom meet.
+    In the order "brio" the points lie along the curve. Threads whose parts lie among each other begin each
+    round at different places of it, so that they seldom meet; unless they need not stay ``apart``, when one
+    warms the caches for the others.
     """
     part = parts_of(points, subdivision, parts, seed)
     if order == "brio":
         sites, starts = brio(part, parts, seed)
-        if parts > 1 and subdivision != "curve":
+        if apart and parts > 1 and subdivision != "curve":
             sites = _rotate(sites, starts)
         return sites, np.append(starts[:, 0], len(points))
     shuffled = np.random.default_rng([seed, 2]).permutation(len(points))

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
-LOOK = 0.05  # seconds between two looks of the main thread; it wakes at once when a thread ends or a signal comes
+LOOK = 0.05  # seconds between two looks of the main thread, which a thread that ends or a signal wakes
 
 
 def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> list[Any]:

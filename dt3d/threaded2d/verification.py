@@ -1,8 +1,9 @@
 """Proving that triangles are the Delaunay triangulation of their sites, with exact arithmetic.
 
-If all triangles turn to the left, no two neighbours have the far vertex of one inside the circle of the other, and what
-borders nothing is one convex polygon, then they are the Delaunay triangulation (B. Delaunay, Sur la sphere vide, 1934).
-Ties are checked too: the result must be the one that the symbolic perturbation defines.
+If all triangles turn to the left, no two neighbours have the far vertex of one inside the circle of the
+other, and what borders nothing is one convex polygon, then they are the Delaunay triangulation (B. Delaunay,
+Sur la sphere vide, 1934). Ties are checked too: the result must be the one that the symbolic perturbation
+defines.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def verify(points: Any, triangles: Any, neighbors: Any, duplicates: Any) -> Veri
     """
     points, triangles = np.asarray(points, np.float64), np.asarray(triangles, np.int64).reshape(-1, 3)
     if len(triangles) and not 0 <= triangles.min() <= triangles.max() < len(points):
-        msg = f"triangles name sites {triangles.min()} to {triangles.max()}, but there are {len(points)} points"
+        msg = (
+            f"triangles name sites {triangles.min()} to {triangles.max()}, but there are {len(points)} points"
+        )
         raise ValueError(msg)
     sites = np.ascontiguousarray(exactly_scaled(points))
     w = work_array(sites)

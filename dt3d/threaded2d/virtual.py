@@ -1,13 +1,14 @@
 """Virtual time: the methods' own operations on 1 to 64 simulated processing elements.
 
-A scheduler lets the element whose clock is least take the next step of its thread, which is the very step that real threads
-take, on the very structure. It then sets the clock forward by what the step has counted (nodes visited, edges flipped, tests
-...) times costs that were measured in a sequential run. So waits, deadlocks, lock conflicts and a queue that
-is full or empty come about as they would, and a run can be repeated. What is left out: caches, which made the
-paper's speed-ups more than linear, and the memory's bandwidth.
+A scheduler lets the element whose clock is least take the next step of its thread, which is the very step
+that real threads take, on the very structure. It then sets the clock forward by what the step has counted
+(nodes visited, edges flipped, tests ...) times costs that were measured in a sequential run. So waits,
+deadlocks, lock conflicts and a queue that is full or empty come about as they would, and a run can be
+repeated. What is left out: caches, which made the paper's speed-ups more than linear, and the memory's
+bandwidth.
 
-Elements take turns with their threads when a thread waits, and after a slice of time when there are more threads than
-elements.
+Elements take turns with their threads when a thread waits, and after a slice of time when there are more
+threads than elements.
 """
 
 from __future__ import annotations
@@ -26,7 +27,20 @@ from .first import first_triangle
 from .order import along_curve
 from .plan import Options, parts_with_sites, triangulate
 from .queue import empty_queue
-from .store import END, EXCEPTIONS, FLIPS, GIVEN_UP, HINT, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS, Store
+from .store import (
+    END,
+    EXCEPTIONS,
+    FLIPS,
+    GIVEN_UP,
+    HINT,
+    INSERTED,
+    NEXT,
+    RETRIES,
+    TESTS,
+    VISITED,
+    WAITS,
+    Store,
+)
 from .subdivision import insertion_order
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
@@ -120,7 +134,22 @@ def _step(points, nodes, shared, state, order, by, pool, cells, held, cavity, ri
 
 @numba.njit(nogil=True, cache=True)
 def _simulate(
-    points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, elements, costs, w
+    points,
+    nodes,
+    shared,
+    state,
+    order,
+    by,
+    pool,
+    cells,
+    held,
+    cavity,
+    rim,
+    method,
+    helping,
+    elements,
+    costs,
+    w,
 ):
     """Seconds of the last element to end, and of all elements that were not spent waiting."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
@@ -154,7 +183,9 @@ def _simulate(
         k = running[e]
         v, f, i, c = _counted(state, k)
         in_hand = state[k, INSERTED]
-        did = _step(points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w)
+        did = _step(
+            points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w
+        )
         v2, f2, i2, c2 = _counted(state, k)
         if did == FINISHED:
             alive -= 1
@@ -184,8 +215,8 @@ def _simulate(
 
 @numba.njit(nogil=True, cache=True)
 def _simulate_critical(points, nodes, shared, state, order, by, elements, costs, w):
-    """The pessimistic method, and with one element the sequential one: as long as an element is in the critical
-    section, others that come to it wait; one thread on each element."""
+    """The pessimistic method, and with one element the sequential one: as long as an element is in the
+    critical section, others that come to it wait; one thread on each element."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     order, by, w = borrowed(order), borrowed(by), borrowed(w)
     visit, node, test, queue, locks, wait, time_slice = costs
@@ -268,7 +299,11 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
     else:
         locking = method == OPTIMISTIC
         shape = (options.threads if locking else 1, 4 * len(rows) + 64 if locking else 1)
-        scratch = np.empty(shape, np.int32), np.empty(shape, np.int32), np.empty((shape[0], 3 * shape[1]), np.int32)
+        scratch = (
+            np.empty(shape, np.int32),
+            np.empty(shape, np.int32),
+            np.empty((shape[0], 3 * shape[1]), np.int32),
+        )
         pool = circumcircle.empty_pool(options.threads)
         cells = empty_queue(max(2, options.queue_length))
         seconds, busy = _simulate(*common, pool, cells, *scratch, method, options.helping, elements, price, w)

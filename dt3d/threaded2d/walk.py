@@ -16,7 +16,8 @@ from .store import CHILD, INFINITE, NEIGHBOR
 
 @numba.njit(cache=True, forceinline=True)
 def walk(points, nodes, t, q, w):
-    """In place: the triangle that contains site q, or a ghost whose edge it is beyond; and the steps from t on."""
+    """In place: the triangle that contains site q, or a ghost whose edge it is beyond; and the steps from t
+    on."""
     steps, came = 0, -1
     while True:
         a, b, c = load_acquire(nodes, (t, 0)), load_acquire(nodes, (t, 1)), load_acquire(nodes, (t, 2))
@@ -42,7 +43,8 @@ def walk(points, nodes, t, q, w):
 
 @numba.njit(cache=True, forceinline=True)
 def _right_of(points, nodes, a, b, q, w):
-    """Whether q lies to the right of the edge ab, one of whose ends may be infinite: of a ray from the centre."""
+    """Whether q lies to the right of the edge ab, one of whose ends may be infinite: of a ray from the
+    centre."""
     if a == INFINITE:
         return side(points, nodes, b, a, q, w) > 0
     return side(points, nodes, a, b, q, w) < 0
@@ -52,9 +54,9 @@ def _right_of(points, nodes, a, b, q, w):
 def walk_history(points, nodes, t, q, w):
     """With a history: the leaf that contains q, and the steps from t on.
 
-    Ghosts are bounded by rays from the centre, as in the history, so that the answer is right even where swaps are
-    pending and the hull is not convex; for the same reason another edge comes first in each step. A walk that meets
-    a triangle that is no more goes on in its children.
+    Ghosts are bounded by rays from the centre, as in the history, so that the answer is right even where
+    swaps are pending and the hull is not convex; for the same reason another edge comes first in each step. A
+    walk that meets a triangle that is no more goes on in its children.
     """
     steps = 0
     while True:

@@ -18,8 +18,14 @@ GOOD = np.random.default_rng(0).random((20, 2))
         ([["a", "b"]] * 3, "real numbers"),
         (GOOD * 1j, "real numbers"),
         (np.ma.masked_array(GOOD, GOOD > 2), "masked"),
-        (np.where(np.arange(40).reshape(20, 2) == 7, np.nan, GOOD), "1 rows have NaN or infinity, the first is row 3"),
-        (np.where(np.arange(40).reshape(20, 2) > 37, np.inf, GOOD), "1 rows have NaN or infinity, the first is row 19"),
+        (
+            np.where(np.arange(40).reshape(20, 2) == 7, np.nan, GOOD),
+            "1 rows have NaN or infinity, the first is row 3",
+        ),
+        (
+            np.where(np.arange(40).reshape(20, 2) > 37, np.inf, GOOD),
+            "1 rows have NaN or infinity, the first is row 19",
+        ),
         ([[1, 2], [3]], "one length"),
     ],
 )
@@ -28,7 +34,9 @@ def test_errors_of_points(points, message):
         threaded2d.Delaunay(points)
 
 
-@pytest.mark.parametrize("method", ["auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic"])
+@pytest.mark.parametrize(
+    "method", ["auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic"]
+)
 @pytest.mark.parametrize(
     ("points", "dimension", "where"),
     [

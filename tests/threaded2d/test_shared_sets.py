@@ -12,7 +12,15 @@ from dt3d import threaded2d
 from .families import canonical
 
 FOLDER = Path(__file__).parents[3] / "shared" / "data"
-FROM_ABOVE = ("crater_lake", "lidr_megaplot", "las_autzen_trim", "las_simple", "las_plane", "las_vegetation", "mr19_mock")
+FROM_ABOVE = (
+    "crater_lake",
+    "lidr_megaplot",
+    "las_autzen_trim",
+    "las_simple",
+    "las_plane",
+    "las_vegetation",
+    "mr19_mock",
+)
 
 
 def sets_in_the_plane():
@@ -44,6 +52,12 @@ def test_all_methods_agree_on_the_set(name):
         return
     assert tri.verify(), tri.verify()
     want = canonical(tri.triangles)
-    for method, threads in (("batch", 4), ("circumcircle", 2), ("optimistic", 3), ("pessimistic", 2), ("auto", 2)):
+    for method, threads in (
+        ("batch", 4),
+        ("circumcircle", 2),
+        ("optimistic", 3),
+        ("pessimistic", 2),
+        ("auto", 2),
+    ):
         same = threaded2d.Delaunay(points, method=method, threads=threads)
         np.testing.assert_array_equal(canonical(same.triangles), want)

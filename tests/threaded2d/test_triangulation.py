@@ -1,4 +1,5 @@
-"""Every method, any number of threads, any subdivision: one triangulation, proved, and found by brute force too."""
+"""Every method, any number of threads, any subdivision: one triangulation, proved, and found by brute force
+too."""
 
 from fractions import Fraction
 from itertools import combinations
@@ -20,8 +21,8 @@ SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 
 
 def brute_force(points):
-    """Triangles with no perturbed site inside, in rational arithmetic: heights |p|^2 + e_p, infinitesimals in the
-    lexicographic order of coordinates, the first dominant."""
+    """Triangles with no perturbed site inside, in rational arithmetic: heights |p|^2 + e_p, infinitesimals in
+    the lexicographic order of coordinates, the first dominant."""
     exact = [tuple(Fraction(x) for x in p) for p in points.tolist()]
     rank = {p: i for i, p in enumerate(sorted(set(exact)))}
     first = {p: i for i, p in reversed(list(enumerate(exact)))}
@@ -66,7 +67,12 @@ def test_all_methods_agree_and_are_proved(name):
             for order, location in (("brio", "dag"), ("random", "dag"), ("brio", "walk"), ("random", "walk")):
                 subdivision = str(rng.choice(SUBDIVISIONS[: 4 if order == "brio" else 3]))
                 tri = threaded2d.Delaunay(
-                    points, method=method, threads=threads, order=order, location=location, subdivision=subdivision
+                    points,
+                    method=method,
+                    threads=threads,
+                    order=order,
+                    location=location,
+                    subdivision=subdivision,
                 )
                 np.testing.assert_array_equal(canonical(tri.triangles), want)
                 assert sum(tri.stats.inserted) == len(points) - len(tri.duplicates) - 3
@@ -102,7 +108,13 @@ def test_large_sets(name, n):
     reference = threaded2d.Delaunay(points, method="sequential")
     assert reference.verify(), reference.verify()
     want = canonical(reference.triangles)
-    for method, threads in (("batch", 4), ("circumcircle", 2), ("optimistic", 3), ("pessimistic", 2), ("auto", 2)):
+    for method, threads in (
+        ("batch", 4),
+        ("circumcircle", 2),
+        ("optimistic", 3),
+        ("pessimistic", 2),
+        ("auto", 2),
+    ):
         tri = threaded2d.Delaunay(points, method=method, threads=threads)
         np.testing.assert_array_equal(canonical(tri.triangles), want)
 
@@ -151,7 +163,13 @@ def test_growth_of_the_history(monkeypatch):
     monkeypatch.setattr("dt3d.threaded2d.store.BLOCK", 16)
     points = EVERY_SET["uniform"](3000)
     want = canonical(threaded2d.Delaunay(points, method="auto").triangles)
-    for method, threads in (("sequential", 1), ("batch", 3), ("circumcircle", 3), ("optimistic", 3), ("pessimistic", 3)):
+    for method, threads in (
+        ("sequential", 1),
+        ("batch", 3),
+        ("circumcircle", 3),
+        ("optimistic", 3),
+        ("pessimistic", 3),
+    ):
         tri = threaded2d.Delaunay(points, method=method, threads=threads)
         assert tri.stats.growths >= 1
         np.testing.assert_array_equal(canonical(tri.triangles), want)
@@ -170,4 +188,6 @@ def test_verify_sees_what_is_broken():
     assert not verify(moved, *good[1:])
     swapped = tri.neighbors.copy()
     swapped[0] = swapped[0, ::-1] + 1
-    assert "broken: neighbors says which ones" in str(verify(tri.points, tri.triangles, swapped, tri.duplicates))
+    assert "broken: neighbors says which ones" in str(
+        verify(tri.points, tri.triangles, swapped, tri.duplicates)
+    )

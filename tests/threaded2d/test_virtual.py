@@ -25,6 +25,7 @@ def test_runs_repeat_and_insert_all(method, elements):
     assert run == simulate(points, options(method, max(2, elements)), elements, COSTS)
     assert run.triangles == 2 * (len(points) - 1)  # with the ghosts, by Euler's relation
     assert 0 < run.busy <= 1 + 1e-9
+    assert (run.tests > 0) == (method == "circumcircle" and elements > 1)
 
 
 @pytest.mark.parametrize("name", EVERY_SET)

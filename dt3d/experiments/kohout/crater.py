@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 PAPER = {"batch": (2.01, 4.40), "circumcircle": (2.00, 4.09)}
 
 
-def crater(out: Path, console: Console, *, points: int = 100_001, repeats: int = 3, seed: int = 0) -> list[Row]:
+def crater(
+    out: Path, console: Console, *, points: int = 100_001, repeats: int = 3, seed: int = 0
+) -> list[Row]:
     """Figure 13: the Crater Lake terrain, speed-ups and a picture of it, coloured by height and by thread."""
     sites = crater_lake()
     if points < len(sites):
@@ -48,7 +50,9 @@ def crater(out: Path, console: Console, *, points: int = 100_001, repeats: int =
         light = normals @ [-0.5, 0.5, 0.7] / np.linalg.norm(normals, axis=1)
         x, y = tri.points.T
         axes.tripcolor(x, y, tri.triangles, facecolors=light, cmap="gray", rasterized=True)
-        axes.tripcolor(x, y, tri.triangles, facecolors=tri.thread, cmap="tab10", vmax=9, alpha=0.3, rasterized=True)
+        axes.tripcolor(
+            x, y, tri.triangles, facecolors=tri.thread, cmap="tab10", vmax=9, alpha=0.3, rasterized=True
+        )
         axes.set_aspect("equal")
         axes.set_title(f"{len(sites):,} points of Crater Lake; colours: the thread that made the triangle")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ...threaded2d import Delaunay
 from . import sets
@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 
 
 def phases(
-    out: Path, console: Console, *, points: int | str = "1000,5000,10000,50000,100000", order: str = "random"
+    out: Path,
+    console: Console,
+    *,
+    points: int | str = "1000,5000,10000,50000,100000",
+    order: Literal["brio", "random"] = "random",
 ) -> list[Row]:
     """Figure 1: time of the sequential algorithm in location, in subdivision and legalisation, in extraction.
 
@@ -44,11 +48,13 @@ def phases(
         below = [0.0] * len(rows)
         for column in ("location ms", "change ms", "extraction ms"):
             values = [1e3 * row[column] / row["points"] for row in rows]
-            axes.bar([str(row["points"]) for row in rows], values, bottom=below, label=column.removesuffix(" ms"))
+            axes.bar(
+                [str(row["points"]) for row in rows], values, bottom=below, label=column.removesuffix(" ms")
+            )
             below = [b + v for b, v in zip(below, values, strict=True)]
         axes.set(xlabel="points", ylabel="microseconds a point", title=f"sequential, {order} order")
         axes.legend()
 
-    note = "Uniform points, DAG. Shares are of location, changes and extraction; the paper also frees memory in the rest."
+    note = "Uniform points, DAG. The paper frees its structure too, in what is neither location nor change."
     publish("kohout-phases", "Kohout et al. 2004, Fig. 1: phases", rows, out, console, draw, note)
     return rows

@@ -42,12 +42,14 @@ def queue(
 
     def draw(axes: Any) -> None:
         for row in rows:
-            axes.plot(LENGTHS, [row[str(length)] for length in LENGTHS], "o-", label=f"{row['points']:,} points")
+            axes.plot(
+                LENGTHS, [row[str(length)] for length in LENGTHS], "o-", label=f"{row['points']:,} points"
+            )
         axes.set(xscale="log", xlabel="queue length", ylabel=f"speed-up, {elements} virtual elements")
         axes.set_xticks(LENGTHS, [str(length) for length in LENGTHS])
         axes.minorticks_off()
         axes.legend()
 
-    note = "Virtual time has no caches, which are what makes long queues better or worse on a machine; look at the flat part."
+    note = "Virtual time has no caches, which make long queues better or worse; look at the flat part."
     publish("kohout-queue", "Kohout et al. 2004, Table 1: queue length", rows, out, console, draw, note)
     return rows

@@ -14,7 +14,13 @@ Row = dict[str, Any]
 
 
 def publish(
-    name: str, title: str, rows: Sequence[Row], out: Path, console: Console, draw: Callable[[Any], None], note: str
+    name: str,
+    title: str,
+    rows: Sequence[Row],
+    out: Path,
+    console: Console,
+    draw: Callable[[Any], None],
+    note: str,
 ) -> None:
     """Print rows, whose keys are the columns, and write ``name``.csv and ``name``.png into ``out``.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -31,12 +31,15 @@ CIRCUMCIRCLE = {
 TABLE4 = {"optimistic": (2.28, 3.98), "batch": (2.42, 3.81), "circumcircle": (2.39, 3.73)}
 
 NOTE = (
-    "Virtual: deterministic, on simulated elements, without caches and memory bandwidth, which make the paper's "
-    "values exceed the number of elements. Measured: this machine, {processors} processors, median of {repeats}, insertion only."
+    "Virtual: deterministic, on simulated elements, without caches and memory bandwidth, which make the "
+    "paper's values exceed the number of elements. Measured: this machine, {processors} processors, median "
+    "of {repeats}, insertion only."
 )
 
 
-def _options(method: str, threads: int, n: int, subdivision: str = "random", order: str = "random") -> Options:
+def _options(
+    method: str, threads: int, n: int, subdivision: str = "random", order: str = "random"
+) -> Options:
     return Options(method, threads, order, "dag", queue_for(n), subdivision, 0)
 
 
@@ -84,7 +87,7 @@ def _lines(rows: list[Row], x: str, columns: dict[str, str], ylabel: str) -> Cal
 
 
 def _by_size(
-    name: str, title: str, method: str, paper: dict[int, tuple[float, ...]], threads: Callable[[int], int],
+    name: str, title: str, method: str, paper: Mapping[int, tuple[float, ...]], threads: Callable[[int], int],
     out: Path, console: Console, points: int | str, repeats: int, make: Any = sets.uniform,
 ) -> list[Row]:  # fmt: skip
     rows: list[Row] = []
@@ -102,7 +105,13 @@ def _by_size(
                 "paper PE 6400, 2": known[2] if known else None,
             }
         )
-    styles = {"virtual 2": "o-", "virtual 4": "o-", "measured": "^-", "paper P 410, 2": "s--", "paper PE 6400, 2": "s--"}
+    styles = {
+        "virtual 2": "o-",
+        "virtual 4": "o-",
+        "measured": "^-",
+        "paper P 410, 2": "s--",
+        "paper PE 6400, 2": "s--",
+    }
     note = NOTE.format(processors=processors, repeats=repeats)
     publish(name, title, rows, out, console, _lines(rows, "points", styles, "speed-up"), note)
     return rows
@@ -135,8 +144,8 @@ def circumcircle(
 def arc(out: Path, console: Console, *, points: int | str = "1000,5000,10000", repeats: int = 3) -> list[Row]:
     """Figures 9 to 11: points on an arc, whose narrow triangles have huge circles.
 
-    The paper: batch about 8 % slower than on uniform data; circum-circle on four processors slower than sequential
-    for small sets.
+    The paper: batch about 8 % slower than on uniform data; circum-circle on four processors slower than
+    sequential for small sets.
     """
     rows: list[Row] = []
     for n in sets.sizes(points):
@@ -172,8 +181,10 @@ def subdivision(out: Path, console: Console, *, points: int = 50_000, seed: int 
         row["optimistic"] = given.virtual("optimistic", elements, elements)
         row["paper"] = "random best" if elements == 2 else ("open" if elements > 4 else "")
         rows.append(row)
-    styles = dict.fromkeys(("random", "x-slabs", "distance"), "o-") | dict.fromkeys(("batch", "optimistic"), "^--")
-    note = f"{points:,} uniform points, circum-circle by subdivision, the others at random. Virtual time, insertion only."
+    styles = dict.fromkeys(("random", "x-slabs", "distance"), "o-") | dict.fromkeys(
+        ("batch", "optimistic"), "^--"
+    )
+    note = f"{points:,} uniform points; circum-circle by subdivision, the others at random. Virtual time."
     publish(
         "kohout-subdivision", "Kohout et al. 2004, Fig. 12: subdivision of the input", rows, out, console,
         _lines(rows, "elements", styles, "speed-up, virtual"), note,
@@ -197,7 +208,9 @@ def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int =
 
     def draw(axes: Any) -> None:
         for k, column in enumerate(("paper 2", "virtual 2", "measured", "paper 4", "virtual 4")):
-            axes.bar([i + 0.15 * k for i in range(len(rows))], [row[column] for row in rows], 0.14, label=column)
+            axes.bar(
+                [i + 0.15 * k for i in range(len(rows))], [row[column] for row in rows], 0.14, label=column
+            )
         axes.set_xticks([i + 0.3 for i in range(len(rows))], [row["method"] for row in rows])
         axes.set(ylabel="speed-up")
         axes.legend()
