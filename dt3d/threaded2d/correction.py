@@ -60,7 +60,8 @@ def correct(points, nodes, used, w):
                 continue
             k = 0
             while k < 3:
-                if _illegal(points, nodes, t, k, w):
+                # an edge is illegal from both sides or from none
+                if nodes[t, NEIGHBOR + k] >> 2 < t and _illegal(points, nodes, t, k, w):
                     _flip(nodes, t, k)
                     flips += 1
                     changed = True

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numba
 
 from ..predicates.borrowed import borrowed
-from .atomics import give_way, load, store_release
+from .atomics import load, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
 from .sequential import DONE, STOPPED
 from .store import (
@@ -28,6 +28,8 @@ from .store import (
     stumble,
 )
 from .walk import walk
+
+AT_ONCE = 4  # attempts before a thread that does not get its triangles gives way
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -69,7 +71,7 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
     hint, end = state[me, HINT], state[me, END]
     at = state[me, NEXT]
     visited = flips = inserted = retries = 0
-    result = DONE
+    tries, result = 0, DONE
     while at < end:
         if load(shared, (STOP, 0)) != 0:
             result = STOPPED
@@ -85,11 +87,13 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
         if size == BUSY:
             give_back(nodes, held, count)
             retries += 1
-            if retries & 15 == 0:
-                give_way()
+            tries += 1
+            if tries > AT_ONCE:
+                wait_a_little(tries - AT_ONCE)
             hint = t
             continue
         stumble(shared, state, me)
+        tries = 0
         fresh = ROOTS + 2 * at
         hint = fill(nodes, q, cavity, size, rim, edges, fresh, me, lock)
         if lock != 0:

@@ -23,26 +23,30 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     results: list[Any] = [None] * len(tasks)
     failures: list[BaseException] = []
 
+    ended = [threading.Event() for _ in tasks]
+
     def run(k: int) -> None:
         try:
             results[k] = tasks[k]()
-        except BaseException as error:  # noqa: BLE001  (raised again below, in the thread of the caller)
+        except BaseException as error:  # raised again below, in the thread of the caller
             failures.append(error)
             stop()
+        finally:
+            ended[k].set()
 
-    threads = [threading.Thread(target=run, args=(k,), daemon=True) for k in range(len(tasks))]
-    started: list[threading.Thread] = []
+    # Events and not Thread.join: before Python 3.13 an interrupted join takes the thread for ended.
+    started: list[threading.Event] = []
     try:
-        for thread in threads:
-            thread.start()
-            started.append(thread)
-        for thread in threads:
-            while thread.is_alive():
-                thread.join(LOOK)
+        for k in range(len(tasks)):
+            threading.Thread(target=run, args=(k,), daemon=True).start()
+            started.append(ended[k])
+        for event in started:
+            while not event.wait(LOOK):
+                pass
     except BaseException:
         stop()
-        for thread in started:
-            thread.join()
+        for event in started:
+            event.wait()
         raise
     if failures:
         raise failures[0]
