@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class DegenerateInputError(ValueError):
-    """The sites span no volume: fewer than four distinct ones, or all on a point, a line or a plane.
+    """The sites span no volume, or in 2D no area: too few distinct ones, or all on a plane, a line, a point.
 
     Attributes
     ----------

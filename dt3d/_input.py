@@ -12,14 +12,14 @@ from ._errors import DegenerateInputError
 MOST_SITES = 2**25
 
 
-def check_points(points: Any) -> np.ndarray:
-    """The points as a float64 array of shape (n, 3).
+def check_points(points: Any, dimension: int = 3) -> np.ndarray:
+    """The points as a float64 array of shape (n, dimension).
 
     Raises
     ------
     ValueError
-        If they are not numbers, not of shape (n, 3), empty, masked, not finite, too many, or integers that
-        float64 cannot hold.
+        If they are not numbers, not of shape (n, dimension), empty, masked, not finite, too many, or integers
+        that float64 cannot hold.
     """
     if np.ma.isMaskedArray(points):
         msg = "points are a masked array; drop the masked rows first, for example points.compressed()"
@@ -27,16 +27,20 @@ def check_points(points: Any) -> np.ndarray:
     try:
         given = np.asarray(points)
     except ValueError as error:
-        msg = f"points must be an array of shape (n, 3); the rows that came do not have one length ({error})"
+        msg = (
+            f"points must be an array of shape (n, {dimension}); the rows that came do not have one length "
+            f"({error})"
+        )
         raise ValueError(msg) from None
     if given.dtype.kind not in "iuf":
-        msg = f"points must be real numbers of shape (n, 3), got dtype {given.dtype}"
+        msg = f"points must be real numbers of shape (n, {dimension}), got dtype {given.dtype}"
         raise ValueError(msg)
-    if given.ndim != 2 or given.shape[1] != 3:
-        msg = f"points must have shape (n, 3), got {given.shape}"
+    if given.ndim != 2 or given.shape[1] != dimension:
+        msg = f"points must have shape (n, {dimension}), got {given.shape}"
         raise ValueError(msg)
     if not len(given):
-        msg = "points are empty; a triangulation needs at least four sites"
+        least = {2: "three", 3: "four"}[dimension]
+        msg = f"points are empty; a triangulation needs at least {least} sites"
         raise ValueError(msg)
     if len(given) > MOST_SITES:
         msg = f"at most 2^25 = {MOST_SITES} sites can be numbered, got {len(given)}"
@@ -105,8 +109,17 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
     return DegenerateInputError(msg, dimension)
 
 
+def no_area(dimension: int, n: int) -> DegenerateInputError:
+    """The error for n distinct sites in the plane whose affine hull has the given dimension, 0 or 1."""
+    msg = (
+        f"a 2D triangulation needs three sites that do not lie on a line; the {n} distinct sites "
+        f"that came {['coincide', 'lie on a line'][dimension]} (dimension {dimension})"
+    )
+    return DegenerateInputError(msg, dimension)
+
+
 def exactly_scaled(sites: np.ndarray) -> np.ndarray:
-    """Sites times a power of two, float64 (n, 3): the greatest coordinate is about 1, where that is exact.
+    """Sites times a power of two, float64 (n, d): the greatest coordinate is about 1, where that is exact.
 
     Elsewhere, where coordinates are more than 2^1000 apart in magnitude, the sites themselves.
     """

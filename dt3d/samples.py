@@ -18,3 +18,17 @@ def mtor() -> np.ndarray:
     """
     with (files(__package__) / "data" / "mtor.npz").open("rb") as stream:
         return np.load(stream)["points"]
+
+
+def crater_lake() -> np.ndarray:
+    """The terrain of Crater Lake, USA: column, row and height in metres of 459 x 336 grid points.
+
+    Returns
+    -------
+    float64 (154224, 3)
+        Whole numbers. Seen from above a grid, in which all ties have to be decided.
+    """
+    with (files(__package__) / "data" / "crater_lake.npz").open("rb") as stream:
+        heights = np.load(stream)["heights"]
+    row, column = np.indices(heights.shape)
+    return np.column_stack([column.ravel(), row.ravel(), heights.ravel()]).astype(float)

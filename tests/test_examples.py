@@ -17,6 +17,10 @@ RUNS = {
         (["60", "--write", "sites.vtu"], ["sites.vtu"]),
         (["60", "--write", "sites.png"], ["sites.png"]),
     ],
+    "threads_in_the_plane.py": [
+        (["300"], []),
+        (["300", "--threads", "2", "--subdivision", "distance", "--write", "threads.png"], ["threads.png"]),
+    ],
     "watch_it_grow.py": [
         (["--sites", "60", "--folder", "growth", "--size", "200"], ["growth/iteration_01.png"]),
         (["--sites", "60", "--folder", "growth", "--size", "200", "--cut"], ["growth/iteration_02.png"]),

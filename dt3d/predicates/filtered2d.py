@@ -18,13 +18,31 @@ Contraction to fused multiply-add leaves out roundings and adds none, so both ho
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba
+from numba.extending import intrinsic
 
 from .adaptive2d import in_circle_adaptive, orient2d_adaptive
+from .outlined import call_outlined
 from .work import SLACK
 
 ORIENT2D_BOUND = 9.0 * 2.0**-53
 IN_CIRCLE_BOUND = 134.0 * 2.0**-53
+
+
+@intrinsic
+def _orient2d_open(
+    typingctx: Any, points: Any, a: Any, b: Any, c: Any, det: Any, x: Any, y: Any, w: Any
+) -> Any:
+    return call_outlined(typingctx, orient2d_adaptive, (points, a, b, c, det, x, y, w))
+
+
+@intrinsic
+def _in_circle_open(
+    typingctx: Any, points: Any, a: Any, b: Any, c: Any, d: Any, det: Any, x: Any, y: Any, w: Any
+) -> Any:
+    return call_outlined(typingctx, in_circle_adaptive, (points, a, b, c, d, det, x, y, w))
 
 
 @numba.njit(cache=True)
@@ -35,11 +53,10 @@ def orient2d(points, a, b, c, w):
     det = bx * cy - cx * by
     x, y = max(abs(bx), abs(cx)), max(abs(by), abs(cy))
     bound = ORIENT2D_BOUND * (x * y) + w[SLACK]
-    if det > bound:
-        return 1
-    if det < -bound:
-        return -1
-    return orient2d_adaptive(points, a, b, c, det, x, y, w)
+    # one branch that is nearly always taken, and no other on the sign, which nobody can predict
+    if abs(det) > bound:
+        return 1 if det > 0.0 else -1
+    return _orient2d_open(points, a, b, c, det, x, y, w)
 
 
 @numba.njit(cache=True)
@@ -55,8 +72,6 @@ def in_circle(points, a, b, c, d, w):
     y = max(abs(ay), abs(by), abs(cy))
     m = max(x, y)
     bound = IN_CIRCLE_BOUND * (x * y * (m * m)) + w[SLACK]
-    if det > bound:
-        return 1
-    if det < -bound:
-        return -1
-    return in_circle_adaptive(points, a, b, c, d, det, x, y, w)
+    if abs(det) > bound:
+        return 1 if det > 0.0 else -1
+    return _in_circle_open(points, a, b, c, d, det, x, y, w)

@@ -1,0 +1,57 @@
+"""What the experiments leave behind: a table on the screen, the same as CSV, a picture."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+Row = dict[str, Any]
+
+
+def publish(
+    name: str,
+    title: str,
+    rows: Sequence[Row],
+    out: Path,
+    console: Console,
+    draw: Callable[[Any], None],
+    note: str,
+) -> None:
+    """Print rows, whose keys are the columns, and write ``name``.csv and ``name``.png into ``out``.
+
+    ``draw`` gets empty matplotlib axes. ``note`` says what the numbers are, and what is not comparable.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from rich.table import Table
+
+    out.mkdir(parents=True, exist_ok=True)
+    columns = list(rows[0])
+    table = Table(title=title)
+    for column in columns:
+        table.add_column(column, justify="left" if isinstance(rows[0][column], str) else "right")
+    for row in rows:
+        table.add_row(*(_text(row[c]) for c in columns))
+    console.print(table)
+    console.print(note)
+    with (out / f"{name}.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(rows)
+    figure = Figure(figsize=(7, 4.5), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    draw(axes)
+    figure.savefig(out / f"{name}.png", dpi=120)
+    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}")
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:.3g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,218 @@
+"""The public class of the 2D methods."""
+
+from __future__ import annotations
+
+import os
+import time
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from .._input import check_points, exactly_scaled
+from .plan import LOCATIONS, METHODS, ORDERS, Options, triangulate
+from .subdivision import SUBDIVISIONS
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from .verification import Verification
+
+MOST_THREADS = 64
+
+
+class Delaunay:
+    """The Delaunay triangulation of points in the plane, by threads that insert sites into one structure.
+
+    J. Kohout, I. Kolingerova, J. Zara: Practically oriented parallel Delaunay triangulation in E2 for
+    computers with shared memory. Computers & Graphics 28, 2004. The result is exact, and the symbolic
+    perturbation makes it unique: every method, number of threads, order and interleaving gives the same
+    triangles.
+
+    Parameters
+    ----------
+    points2d : array_like, real (n, 2)
+        The sites. Equal ones are used once, see `duplicates`.
+    method : str
+        "auto": the fastest combination on this machine, "optimistic" with location="walk" and order="brio",
+        whatever these say. "sequential"; "batch": threads that locate and one that changes; "circumcircle":
+        all do all, and geometry tells who has to wait; "pessimistic": changes in a critical section;
+        "optimistic": exclusive access triangle by triangle.
+    threads : int, optional
+        All threads. By default one for "sequential", for "batch" one more than the searching threads that
+        suit n, and otherwise as many as there are processors.
+    order : "brio" or "random"
+        Of insertion: random rounds along a space-filling curve, or random as in the paper.
+    location : "dag" or "walk"
+        In the history of the triangulation, as in the paper, or by walking from the triangle found last.
+    queue_length : int, optional
+        Of the batch method; by default it suits n (Table 1 of the paper).
+    subdivision : "random", "x-slabs", "distance" or "curve"
+        Which thread gets which sites: at random, slabs of the first coordinate, rings about the origin, or
+        stretches of the space-filling curve (with order="brio").
+    seed : int
+        Of the random order and subdivision.
+
+    Attributes
+    ----------
+    points : float64 (n, 2)
+    triangles : int32 (m, 3)
+        Counter-clockwise.
+    neighbors : int32 (m, 3)
+        The k-th is opposite the k-th vertex; `dt3d.OUTSIDE` (-1) beyond the hull.
+    thread : int16 (m,)
+        The thread that made each triangle.
+    inserted_by : int16 (n,)
+        The thread that inserted each site; -1 for duplicates.
+    duplicates : int32 (k, 2)
+        A site that was not used, and the equal site that was.
+    stats : Statistics
+
+    Raises
+    ------
+    ValueError
+        If the points or an option are not what they should be; the message says what came.
+    DegenerateInputError
+        If the sites coincide or lie on a line.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from dt3d import threaded2d
+    >>> tri = threaded2d.Delaunay([[0, 0], [1, 0], [0, 1], [1, 1], [0, 0]], threads=2)
+    >>> tri.triangles.shape, tri.duplicates.tolist(), bool(tri.verify())
+    ((2, 3), [[4, 0]], True)
+    """
+
+    def __init__(
+        self,
+        points2d: Any,
+        *,
+        method: Literal["auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic"] = "auto",
+        threads: int | None = None,
+        order: Literal["brio", "random"] = "brio",
+        location: Literal["dag", "walk"] = "dag",
+        queue_length: int | None = None,
+        subdivision: Literal["random", "x-slabs", "distance", "curve"] = "random",
+        seed: int = 0,
+    ) -> None:
+        begun = time.perf_counter()
+        for name, value, choices in (
+            ("method", method, METHODS),
+            ("order", order, ORDERS),
+            ("location", location, LOCATIONS),
+            ("subdivision", subdivision, SUBDIVISIONS),
+        ):
+            if value not in choices:
+                msg = f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}"
+                raise ValueError(msg)
+        _check_count("threads", threads, 1)
+        _check_count("queue_length", queue_length, 2)
+        _check_count("seed", seed, 0)
+        if threads is not None and threads > MOST_THREADS:
+            msg = f"threads must be at most {MOST_THREADS}, got {threads}"
+            raise ValueError(msg)
+        if method == "sequential" and threads not in (None, 1):
+            msg = f"method='sequential' has one thread, got threads={threads}; choose another method"
+            raise ValueError(msg)
+        if method == "batch" and threads == 1:
+            msg = "method='batch' needs a searching and a specialised thread, got threads=1"
+            raise ValueError(msg)
+        if subdivision == "curve" and order == "random":
+            msg = "subdivision='curve' goes with order='brio', got order='random'"
+            raise ValueError(msg)
+
+        self.points = check_points(points2d, 2)
+        sites = exactly_scaled(self.points)
+        options = _options(len(sites), method, threads, order, location, queue_length, subdivision, seed)
+        prepared = time.perf_counter()
+        outcome = triangulate(sites, options)
+        self.triangles = outcome.triangles
+        self.neighbors = outcome.neighbors
+        self.thread = outcome.maker
+        self.inserted_by = outcome.inserted_by
+        self.duplicates = outcome.duplicates
+        self.stats = outcome.stats
+        self.stats.seconds["input"] = prepared - begun
+        self.stats.seconds["total"] = time.perf_counter() - begun
+
+    @cached_property
+    def convex_hull(self) -> np.ndarray:
+        """Edges of the convex hull, int32 (h, 2), counter-clockwise about the triangles."""
+        t, k = np.nonzero(self.neighbors < 0)
+        return np.column_stack([self.triangles[t, (k + 1) % 3], self.triangles[t, (k + 2) % 3]])
+
+    def verify(self) -> Verification:
+        """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it
+        fails."""
+        from .verification import verify
+
+        return verify(self.points, self.triangles, self.neighbors, self.duplicates)
+
+    def to_pyvista(self) -> pyvista.PolyData:
+        """The triangles as a PyVista surface with cell data "thread".
+
+        Raises ImportError, saying what to install, where PyVista is missing.
+        """
+        from .picture import to_pyvista
+
+        return to_pyvista(self)
+
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the triangles, coloured by the threads that made them; see `picture.plot`."""
+        from .picture import plot
+
+        return plot(self, ax, **options)
+
+    def __repr__(self) -> str:
+        return f"<dt3d.threaded2d.Delaunay: {len(self.points)} sites, {len(self.triangles)} triangles>"
+
+
+def _options(
+    n: int,
+    method: str,
+    threads: int | None,
+    order: str,
+    location: str,
+    queue_length: int | None,
+    subdivision: str,
+    seed: int,
+) -> Options:
+    """What is run where None or "auto" was given."""
+    processors = min(os.cpu_count() or 1, MOST_THREADS)
+    if method == "auto":
+        # below some thousand sites a second thread costs more than it saves
+        count = threads or (processors if n > 5000 else 1)
+        return Options("optimistic" if count > 1 else "sequential", count, "brio", "walk", 2, "curve", seed)
+    if method == "batch":
+        count = threads or searching_threads(n, processors) + 1
+    else:
+        count = 1 if method == "sequential" else threads or processors
+    return Options(method, count, order, location, queue_length or queue_for(n), subdivision, seed)
+
+
+def searching_threads(n: int, processors: int) -> int:
+    """How many for the batch method with n sites (Kohout et al. 2004, section 4.2 and Table 1).
+
+    Two searching threads to the specialised one for small sets and three from 50,000 sites on; with four
+    processors or more, four above 100,000 sites and five above 1.5 million.
+    """
+    if processors >= 4 and n > 100_000:
+        return 5 if n > 1_500_000 else 4
+    return 3 if n >= 50_000 else 2
+
+
+def queue_for(n: int) -> int:
+    """The best length of the queue for n sites (Kohout et al. 2004, Table 1)."""
+    for least, length in ((100_000, 1024), (10_000, 512), (5_000, 256)):
+        if n >= least:
+            return length
+    return 64
+
+
+def _check_count(name: str, value: Any, least: int) -> None:
+    if value is None and name != "seed":
+        return
+    if not isinstance(value, int | np.integer) or isinstance(value, bool) or value < least:
+        msg = f"{name} must be an integer of at least {least}, got {value!r}"
+        raise ValueError(msg)

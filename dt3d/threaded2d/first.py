@@ -1,0 +1,36 @@
+"""The first triangle, and with it the exact answer to whether the sites span an area."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from .._input import no_area
+from ..predicates import work_array
+from ..predicates.filtered2d import orient2d
+
+
+@numba.njit(nogil=True, cache=True)
+def _first(points, order, w):
+    for i in range(2, len(order)):
+        sign = orient2d(points, order[0], order[1], order[i], w)
+        if sign != 0:
+            return i, sign
+    return -1, 0
+
+
+def first_triangle(points: np.ndarray, order: np.ndarray) -> np.ndarray:
+    """The first two of the order and the first that is not on a line with them; positive, int64 (3,).
+
+    Raises
+    ------
+    DegenerateInputError
+        If all of the distinct sites lie on a point or a line.
+    """
+    if len(order) < 2:
+        raise no_area(0, 1)
+    i, sign = _first(points, order, work_array(points))
+    if not sign:
+        raise no_area(1, len(order))
+    a, b = order[:2] if sign > 0 else order[1::-1]
+    return np.array([a, b, order[i]], np.int64)

@@ -1,0 +1,89 @@
+"""Subdivision and legalisation (Kohout et al. 2004, section 3.1), on the structure with its history."""
+
+from __future__ import annotations
+
+import numba
+
+from .atomics import store_release
+from .geometry import conflicts
+from .store import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
+
+
+@numba.njit(cache=True, forceinline=True)
+def _write(nodes, t, p, a, b, outer, following, previous, maker, lock):
+    """The star triangle pab: across ab lies the edge ``outer``, beside it the star's next and previous
+    ones."""
+    nodes[t, 0], nodes[t, 1], nodes[t, 2] = p, a, b
+    nodes[t, NEIGHBOR], nodes[t, NEIGHBOR + 1], nodes[t, NEIGHBOR + 2] = outer, following, previous
+    nodes[t, CHILD] = -1 - maker
+    nodes[t, LOCK] = lock
+
+
+@numba.njit(cache=True, forceinline=True)
+def _point_back(nodes, edge, t, k):
+    """Make the triangle beyond ``edge`` know that t, with its k-th edge, is now its neighbour."""
+    store_release(nodes, (edge >> 2, NEIGHBOR + (edge & 3)), 4 * t + k)
+
+
+@numba.njit(cache=True, forceinline=True)
+def subdivide(nodes, shared, state, me, t, p, lock):
+    """Three triangles about p in the place of leaf t; the first of them."""
+    first = fresh(state, me, shared, 3)
+    a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
+    beyond_a, beyond_b, beyond_c = nodes[t, NEIGHBOR], nodes[t, NEIGHBOR + 1], nodes[t, NEIGHBOR + 2]
+    _write(nodes, first, p, a, b, beyond_c, 4 * (first + 1) + 2, 4 * (first + 2) + 1, me, lock)
+    _write(nodes, first + 1, p, b, c, beyond_a, 4 * (first + 2) + 2, 4 * first + 1, me, lock)
+    _write(nodes, first + 2, p, c, a, beyond_b, 4 * first + 2, 4 * (first + 1) + 1, me, lock)
+    _point_back(nodes, beyond_c, first, 0)
+    _point_back(nodes, beyond_a, first + 1, 0)
+    _point_back(nodes, beyond_b, first + 2, 0)
+    store_release(nodes, (t, CHILD), 2 * first + 1)
+    return first
+
+
+@numba.njit(cache=True, forceinline=True)
+def flip(nodes, shared, state, me, f, lock):
+    """Flip the edge of star triangle f opposite its first vertex; the first of the two new triangles."""
+    first = fresh(state, me, shared, 2)
+    edge = nodes[f, NEIGHBOR]
+    u, j = edge >> 2, edge & 3
+    k = j + 1 if j < 2 else 0
+    i = 3 - j - k
+    p, a, b, d = nodes[f, 0], nodes[f, 1], nodes[f, 2], nodes[u, j]
+    following, previous = nodes[f, NEIGHBOR + 1], nodes[f, NEIGHBOR + 2]
+    beyond_ad, beyond_db = nodes[u, NEIGHBOR + k], nodes[u, NEIGHBOR + i]
+    _write(nodes, first, p, a, d, beyond_ad, 4 * (first + 1) + 2, previous, me, lock)
+    _write(nodes, first + 1, p, d, b, beyond_db, following, 4 * first + 1, me, lock)
+    _point_back(nodes, beyond_ad, first, 0)
+    _point_back(nodes, beyond_db, first + 1, 0)
+    _point_back(nodes, previous, first, 2)
+    _point_back(nodes, following, first + 1, 1)
+    store_release(nodes, (f, CHILD), 2 * first)
+    store_release(nodes, (u, CHILD), 2 * first)
+    state[me, FLIPS] += 1
+    return first
+
+
+@numba.njit(cache=True, forceinline=True)
+def illegal(points, nodes, f, w):
+    """Whether the edge of star triangle f opposite its first vertex has to be flipped."""
+    u = nodes[f, NEIGHBOR] >> 2
+    return conflicts(points, nodes[u, 0], nodes[u, 1], nodes[u, 2], nodes[f, 0], w)
+
+
+@numba.njit(cache=True, forceinline=True)
+def insert(points, nodes, shared, state, me, t, p, lock, w):
+    """Subdivide leaf t, which contains p, and legalise: once about the star of p.
+
+    Returns one of the star's triangles. All that is changed must be this thread's own for as long as it
+    takes.
+    """
+    f = subdivide(nodes, shared, state, me, t, p, lock)
+    last = nodes[f, 1]  # the edge from p to this vertex is never flipped
+    while True:
+        if illegal(points, nodes, f, w):
+            f = flip(nodes, shared, state, me, f, lock)
+        elif nodes[f, 2] == last:
+            return f
+        else:
+            f = nodes[f, NEIGHBOR + 1] >> 2

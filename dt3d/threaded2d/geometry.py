@@ -1,0 +1,127 @@
+"""Conflict and side, for sites and the vertices at infinity; exact.
+
+A site is in conflict with a triangle if it lies in its circumcircle, where sites have the infinitesimal
+heights of the symbolic perturbation, so that it is never on it. The circle of a ghost, the triangle beyond
+the hull edge ab, is the half-plane beyond ab, and of its border the part between a and b.
+
+Where the history has to tell which child of a ghost contains a site, the vertex at infinity is the end of the
+ray that leads away from a centre. The centre is infinitesimally close to the first vertex of the first
+triangle, and inside it: s0 + e (s1 - s0) + e^2 (s2 - s0). So no two sites lie on one ray, and each ray meets
+the hull once.
+"""
+
+from __future__ import annotations
+
+import numba
+from numba.extending import intrinsic
+
+from ..predicates.filtered2d import in_circle, orient2d
+from ..predicates.outlined import call_outlined
+from .store import INFINITE
+
+
+@numba.njit(cache=True)
+def _before(points, a, b):
+    """Whether a comes before b in the lexicographic order of coordinates."""
+    return points[a, 0] < points[b, 0] or (points[a, 0] == points[b, 0] and points[a, 1] < points[b, 1])
+
+
+@numba.njit(cache=True)
+def _inside_tied(points, a, b, c, q, w):
+    """The perturbed in-circle test of a site on the circle of abc: the first of the four, in order, decides.
+
+    As `predicates.perturbed2d`, but by comparing coordinates: ranks would cost a sort of all sites, which is
+    longer than a tenth of the triangulation.
+    """
+    first, k = q, 3
+    if _before(points, a, first):
+        first, k = a, 0
+    if _before(points, b, first):
+        first, k = b, 1
+    if _before(points, c, first):
+        first, k = c, 2
+    if k == 3:
+        return False
+    if k == 0:
+        return orient2d(points, q, b, c, w) > 0
+    if k == 1:
+        return orient2d(points, a, q, c, w) > 0
+    return orient2d(points, a, b, q, w) > 0
+
+
+@intrinsic
+def _call_inside_tied(typingctx, points, a, b, c, q, w):
+    return call_outlined(typingctx, _inside_tied, (points, a, b, c, q, w))
+
+
+@numba.njit(cache=True)
+def _between(points, a, b, q):
+    """Whether q, on the line ab and neither a nor b, lies between them."""
+    if points[a, 0] != points[b, 0]:
+        return (points[a, 0] < points[q, 0]) == (points[q, 0] < points[b, 0])
+    return (points[a, 1] < points[q, 1]) == (points[q, 1] < points[b, 1])
+
+
+@numba.njit(cache=True)
+def _conflicts_with_ghost(points, a, b, q, w):
+    sign = orient2d(points, a, b, q, w)
+    return sign > 0 or (sign == 0 and _between(points, a, b, q))
+
+
+@intrinsic
+def _call_conflicts_with_ghost(typingctx, points, a, b, q, w):
+    return call_outlined(typingctx, _conflicts_with_ghost, (points, a, b, q, w))
+
+
+@numba.njit(cache=True, forceinline=True)
+def conflicts(points, a, b, c, q, w):
+    """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of
+    them."""
+    if min(a, b, c) >= 0:
+        sign = in_circle(points, a, b, c, q, w)
+        return sign > 0 if sign != 0 else _call_inside_tied(points, a, b, c, q, w)
+    if a == INFINITE:
+        return _call_conflicts_with_ghost(points, b, c, q, w)
+    if b == INFINITE:
+        return _call_conflicts_with_ghost(points, c, a, q, w)
+    return _call_conflicts_with_ghost(points, a, b, q, w)
+
+
+@numba.njit(cache=True)
+def _side_of_ray(points, s0, s1, s2, p, q, w):
+    """Orientation of the centre, p and q; 0 only where p is q."""
+    sign = orient2d(points, s0, p, q, w)
+    if sign == 0:
+        sign = orient2d(points, s1, p, q, w)
+    if sign == 0:
+        sign = orient2d(points, s2, p, q, w)
+    return sign
+
+
+@intrinsic
+def _call_side_of_ray(typingctx, points, s0, s1, s2, p, q, w):
+    return call_outlined(typingctx, _side_of_ray, (points, s0, s1, s2, p, q, w))
+
+
+@numba.njit(cache=True, forceinline=True)
+def side(points, nodes, p, v, q, w):
+    """Where q lies from the line that leads from site p to v, a site or infinite: 1 left, -1 right, 0 on
+    it."""
+    if v >= 0:
+        return orient2d(points, p, v, q, w)
+    return _call_side_of_ray(points, nodes[0, 0], nodes[0, 1], nodes[0, 2], p, q, w)
+
+
+@numba.njit(cache=True)
+def root_of(points, nodes, q, w):
+    """The root, 0 to 3, that contains site q, which is not a vertex of the first triangle."""
+    s0, s1, s2 = nodes[0, 0], nodes[0, 1], nodes[0, 2]
+    # seen from the centre, q lies in the sector of one edge
+    if _side_of_ray(points, s0, s1, s2, s0, q, w) >= 0:
+        sector = 0 if _side_of_ray(points, s0, s1, s2, s1, q, w) <= 0 else 1
+    else:
+        sector = 2 if _side_of_ray(points, s0, s1, s2, s2, q, w) >= 0 else 1
+    a, b = (s0, s1) if sector == 0 else ((s1, s2) if sector == 1 else (s2, s0))
+    if orient2d(points, a, b, q, w) >= 0:
+        return 0
+    return 1 + (sector + 2) % 3

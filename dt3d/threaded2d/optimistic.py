@@ -1,0 +1,123 @@
+"""The optimistic method: exclusive access node by node (Kolingerova and Kohout 2002).
+
+Before a thread changes anything it has locked all triangles in conflict with its site and those around them;
+if it does not get one, it gives all of them back and locates again from where it was. So every insertion
+begins and ends with a Delaunay triangulation, no swap is given up, and no thread waits for another while it
+holds anything.
+"""
+
+from __future__ import annotations
+
+import numba
+
+from ..predicates.borrowed import borrowed
+from .atomics import cycles, load, store_release, wait_a_little
+from .batch import CHANGED, FINISHED, LOCATED, WAITING
+from .cavity import BUSY, claim, give_back
+from .dag import descend, locate
+from .flips import insert
+from .sequential import DONE, FULL, STOPPED
+from .store import (
+    ACCESSES,
+    CHANGE_CYCLES,
+    END,
+    HELD,
+    HINT,
+    INSERTED,
+    LOCATION_CYCLES,
+    LOCK,
+    NEIGHBOR,
+    NEXT,
+    NODE,
+    PHASE,
+    RETRIES,
+    SITE,
+    SOFT_LIMIT,
+    STOP,
+    USED,
+    VISITED,
+    WAIT_CYCLES,
+    stumble,
+)
+
+# phases: next site, exclusive access, change
+BEGIN, CLAIM, CHANGE = range(3)
+
+
+@numba.njit(cache=True, forceinline=True)
+def _unlock_star(nodes, f):
+    """Unlock the star triangles about the first vertex of f, which this thread made locked."""
+    last = nodes[f, 1]
+    while True:
+        following = nodes[f, NEIGHBOR + 1] >> 2
+        ends = nodes[f, 2] == last
+        store_release(nodes, (f, LOCK), 0)
+        if ends:
+            return
+        f = following
+
+
+@numba.njit(cache=True, forceinline=True)
+def step(points, nodes, shared, state, order, by, held, cavity, rim, me, w):
+    """One step of thread ``me``: locate a site, get exclusive access, or subdivide and legalise."""
+    if state[me, PHASE] == BEGIN:
+        while state[me, NEXT] < state[me, END] and by[order[state[me, NEXT]]] >= 0:
+            state[me, NEXT] += 1  # a vertex of the first triangle
+        if state[me, NEXT] == state[me, END]:
+            return FINISHED
+        q = order[state[me, NEXT]]
+        t, visited = locate(points, nodes, q, w)
+        state[me, SITE], state[me, NODE], state[me, PHASE] = q, t, CLAIM
+        state[me, VISITED] += visited
+        return LOCATED
+    q = state[me, SITE]
+    if state[me, PHASE] == CLAIM:
+        t, visited = descend(points, nodes, state[me, NODE], q, w)
+        state[me, NODE] = t
+        state[me, VISITED] += visited
+        state[me, ACCESSES] += 1
+        size, _, count = claim(points, nodes, t, q, me + 1, held, cavity, rim, w)
+        if size == BUSY:
+            give_back(nodes, held, count)
+            state[me, RETRIES] += 1
+            return WAITING
+        state[me, HELD], state[me, PHASE] = count, CHANGE
+        return CHANGED
+    f = insert(points, nodes, shared, state, me, state[me, NODE], q, me + 1, w)
+    _unlock_star(nodes, f)
+    give_back(nodes, held, state[me, HELD])
+    by[q] = me
+    state[me, HINT] = f
+    state[me, INSERTED] += 1
+    state[me, NEXT] += 1
+    state[me, PHASE] = BEGIN
+    return CHANGED
+
+
+@numba.njit(nogil=True, cache=True)
+def run(points, nodes, shared, state, order, by, me, scratch, w):
+    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
+    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
+    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
+    waiting = 0
+    begun = cycles()
+    while True:
+        # whoever holds triangles goes on until it has given them back
+        if state[me, PHASE] != CHANGE and load(shared, (STOP, 0)) != 0:
+            return STOPPED
+        if state[me, PHASE] == BEGIN and load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
+            return FULL
+        did = step(points, nodes, shared, state, order, by, held, cavity, rim, me, w)
+        if did == FINISHED:
+            return DONE
+        ended = cycles()
+        if did == WAITING:
+            state[me, WAIT_CYCLES] += ended - begun
+            wait_a_little(waiting)
+            waiting += 1
+        else:
+            state[me, LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES] += ended - begun
+            waiting = 0
+        stumble(shared, state, me)
+        begun = ended

@@ -1,0 +1,141 @@
+"""The order of sites in memory and of their insertion; and which of them are duplicates.
+
+A biased randomised order (N. Amenta, S. Choi, G. Rote: Incremental constructions con BRIO, SoCG 2003): rounds
+that double in size at random, each along a space-filling curve. It keeps the expected cost of random
+insertion, and what is needed next is near in memory.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from .._input import first_copies
+
+SMALLEST_ROUND = 64
+MOST_ROUNDS = 24
+
+
+@numba.njit(nogil=True, cache=True)
+def _hilbert(x, y, bits):
+    """The place of cell (x, y), of 2^bits a side, along Hilbert's curve."""
+    place = np.uint64(0)
+    for i in range(bits - 1, -1, -1):
+        rx = (x >> i) & 1
+        ry = (y >> i) & 1
+        place = (place << np.uint64(2)) | np.uint64((3 * rx) ^ ry)
+        if ry == 0:
+            if rx == 1:
+                x, y = ~x, ~y
+            x, y = y, x
+    return place
+
+
+@numba.njit(nogil=True, cache=True)
+def _keys(points, low_x, low_y, scale, bits, index_bits, out):
+    """Places along the curve with the numbers of the sites in the low bits."""
+    top = (1 << bits) - 1
+    for i in range(len(points)):
+        x = min(np.int64((points[i, 0] - low_x) * scale), top)
+        y = min(np.int64((points[i, 1] - low_y) * scale), top)
+        out[i] = (_hilbert(x, y, bits) << np.uint64(index_bits)) | np.uint64(i)
+
+
+@numba.njit(nogil=True, cache=True)
+def _extent(points):
+    low_x = high_x = points[0, 0]
+    low_y = high_y = points[0, 1]
+    for i in range(len(points)):
+        low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
+        low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
+    return low_x, low_y, max(high_x - low_x, high_y - low_y)
+
+
+def along_curve(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sites sorted along Hilbert's curve, and pairs (a later copy, the first one): int64 (m,), int32 (k, 2).
+
+    ``points`` are float64 (n, 2), finite, with no difference of coordinates that overflows. Of equal sites
+    the one of least index is kept.
+    """
+    n = len(points)
+    index_bits = max(1, int(n - 1).bit_length())
+    bits = min(24, (64 - index_bits) // 2)
+    low_x, low_y, extent = _extent(points)
+    # the extent may be subnormal, so the sites are scaled in two steps
+    scale = 2.0**bits / extent if extent > 2.0**-900 else 0.0
+    keys = np.empty(n, np.uint64)
+    _keys(points, low_x, low_y, scale, bits, index_bits, keys)
+    keys.sort()
+    index = (keys & np.uint64((1 << index_bits) - 1)).astype(np.int64)
+    keys >>= np.uint64(index_bits)
+    same = keys[1:] == keys[:-1]
+    if not same.any():
+        return index, np.empty((0, 2), np.int32)
+    # equal sites are in one cell of the curve
+    shared_cell = np.zeros(n, bool)
+    shared_cell[1:] |= same
+    shared_cell[:-1] |= same
+    among = np.sort(index[shared_cell])
+    _, pairs = first_copies(points[among])
+    pairs = among[pairs].astype(np.int32)
+    copy = np.zeros(n, bool)
+    copy[pairs[:, 0]] = True
+    return index[~copy[index]], pairs
+
+
+@numba.njit(nogil=True, cache=True)
+def _round_of(i, seed, rounds):
+    """The round of site i: the last with probability 1/2, the one before with 1/4, and so on."""
+    z = np.uint64(i) + np.uint64(seed) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(0x632BE59BD9B4E019)
+    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    z ^= z >> np.uint64(31)
+    r = rounds - 1
+    while r > 0 and z & np.uint64(1):
+        z >>= np.uint64(1)
+        r -= 1
+    return r
+
+
+@numba.njit(nogil=True, cache=True)
+def _sort_rounds(part, parts, seed, rounds):
+    count = np.zeros(parts * rounds + 1, np.int64)
+    n = len(part)
+    key = np.empty(n, np.int32)
+    for i in range(n):
+        key[i] = part[i] * rounds + _round_of(i, seed, rounds)
+        count[key[i] + 1] += 1
+    for k in range(parts * rounds):
+        count[k + 1] += count[k]
+    starts = count.copy()
+    out = np.empty(n, np.int64)
+    for i in range(n):
+        out[count[key[i]]] = i
+        count[key[i]] += 1
+    return out, starts
+
+
+def rounds_of(n: int) -> int:
+    """How many rounds n sites make."""
+    return max(1, min(MOST_ROUNDS, int(n // SMALLEST_ROUND).bit_length()))
+
+
+def brio(part: np.ndarray, parts: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Sites 0 .. n-1, numbered along the curve, part by part, and in each part round by round.
+
+    Parameters
+    ----------
+    part : int32 (n,)
+        The part of each site, from 0 to parts - 1.
+    parts, seed : int
+
+    Returns
+    -------
+    order : int64 (n,)
+    starts : int64 (parts, rounds + 1)
+        Where in ``order`` the rounds of each part begin, and where the last one ends.
+    """
+    rounds = rounds_of(len(part))
+    order, starts = _sort_rounds(part, parts, seed, rounds)
+    begin = starts[: parts * rounds].reshape(parts, rounds)
+    return order, np.column_stack([begin, starts[rounds::rounds]])

@@ -1,0 +1,77 @@
+"""Triangles coloured by the threads that made them: for PyVista and for matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._mesh import INSTALL_VIEW, import_pyvista
+
+if TYPE_CHECKING:
+    import pyvista
+
+
+def to_pyvista(tri: Any, heights: Any = None) -> pyvista.PolyData:
+    """The triangles as a surface with cell data "thread" and point data "inserted_by".
+
+    Parameters
+    ----------
+    tri : threaded2d.Delaunay
+    heights : float (n,), optional
+        The third coordinate of each point; 0 if left out.
+
+    Raises
+    ------
+    ImportError
+        If PyVista is not installed.
+    """
+    pv = import_pyvista()
+    z = np.zeros(len(tri.points)) if heights is None else np.asarray(heights, np.float64)
+    mesh = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
+    mesh.cell_data["thread"] = tri.thread
+    mesh.point_data["inserted_by"] = tri.inserted_by
+    return mesh
+
+
+def plot(tri: Any, ax: Any = None, *, colormap: str = "tab10", edges: bool | None = None) -> Any:
+    """Draw the triangles, coloured by the threads that made them.
+
+    Parameters
+    ----------
+    tri : threaded2d.Delaunay
+    ax : matplotlib axes, optional
+        A new figure's if left out.
+    colormap : str
+    edges : bool, optional
+        Whether to draw edges; by default up to 20,000 triangles.
+
+    Returns
+    -------
+    The axes.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed.
+    """
+    if ax is None:
+        try:
+            from matplotlib.backends.backend_agg import FigureCanvasAgg
+            from matplotlib.figure import Figure
+        except ImportError as error:
+            msg = f"this needs matplotlib, which cannot be loaded ({error}); {INSTALL_VIEW}"
+            raise ImportError(msg) from error
+        figure = Figure(figsize=(6, 6), layout="constrained")
+        FigureCanvasAgg(figure)
+        ax = figure.add_subplot()
+    from matplotlib import colormaps
+    from matplotlib.collections import PolyCollection
+
+    drawn = len(tri.triangles) <= 20_000 if edges is None else edges
+    colours = colormaps[colormap](tri.thread % 10)
+    line = {"edgecolors": "white", "linewidths": 0.2} if drawn else {"edgecolors": colours, "linewidths": 0.1}
+    ax.add_collection(PolyCollection(tri.points[tri.triangles], facecolors=colours, **line))
+    ax.autoscale_view()
+    ax.set_aspect("equal")
+    return ax

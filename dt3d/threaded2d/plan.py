@@ -1,0 +1,248 @@
+"""From the options of the public class to tasks for threads, and from their counts to statistics."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..predicates import work_array
+from . import batch, circumcircle, optimistic, pessimistic, sequential, star
+from .compaction import compact
+from .correction import correct
+from .first import first_triangle
+from .order import along_curve
+from .queue import empty_queue
+from .statistics import Statistics
+from .store import (
+    ACCESSES,
+    CHANGE_CYCLES,
+    END,
+    EXCEPTIONS,
+    FLIPS,
+    GIVEN_UP,
+    INSERTED,
+    LOCATION_CYCLES,
+    NEXT,
+    QUEUE_FILL,
+    RETRIES,
+    ROOTS,
+    STOP,
+    STUMBLE,
+    TESTS,
+    USED,
+    VISITED,
+    WAIT_CYCLES,
+    WAITS,
+    Store,
+)
+from .subdivision import insertion_order
+from .threads import together
+
+METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
+ORDERS = ("brio", "random")
+LOCATIONS = ("dag", "walk")
+
+
+@dataclass(frozen=True)
+class Options:
+    """What to run, after "auto" and None have been replaced.
+
+    ``helping`` is the batch method's variant in which searching threads that find the queue full finish
+    locations; with ``stumble`` threads give way at random, once in so many chances.
+    """
+
+    method: str
+    threads: int
+    order: str
+    location: str
+    queue_length: int
+    subdivision: str
+    seed: int
+    helping: bool = False
+    stumble: int = 0
+
+    def contended(self, stumble: int, helping: bool = False) -> Options:
+        """The same with threads that give way at random, for tests."""
+        return replace(self, stumble=stumble, helping=helping)
+
+    @property
+    def in_place(self) -> bool:
+        """Whether the structure keeps no history."""
+        return self.location == "walk" and self.method in ("sequential", "optimistic")
+
+
+@dataclass
+class Outcome:
+    """What a run found; vertices are rows of the points it was given."""
+
+    triangles: np.ndarray  # int32 (m, 3)
+    neighbors: np.ndarray  # int32 (m, 3)
+    maker: np.ndarray  # int16 (m,)
+    inserted_by: np.ndarray  # int16 (n,); -1 for duplicates
+    duplicates: np.ndarray  # int32 (k, 2)
+    stats: Statistics
+
+
+def triangulate(points: np.ndarray, options: Options) -> Outcome:
+    """Triangulate points, float64 (n, 2), in the range of the exact predicates.
+
+    Raises
+    ------
+    DegenerateInputError
+        If they span no area.
+    """
+    seconds = {}
+    begun = time.perf_counter()
+    site, duplicates = along_curve(points)
+    if options.order == "random":
+        site = np.sort(site)
+    rows = np.ascontiguousarray(points[site])
+    order, bounds = insertion_order(
+        rows,
+        options.order,
+        options.subdivision,
+        parts_with_sites(options),
+        options.seed,
+        apart=options.method != "batch",
+    )
+    first = first_triangle(rows, order)
+    seconds["order"] = time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    capacity = ROOTS + 2 * len(rows) if options.in_place else None
+    store = Store(rows, first, options.threads, capacity)
+    store.state[: parts_with_sites(options), NEXT] = bounds[:-1]
+    store.state[: parts_with_sites(options), END] = bounds[1:]
+    store.shared[STUMBLE, 0] = options.stumble
+    run = _Run(options, store, order)
+    ticks, clock = sequential.now(), time.perf_counter()
+    run.to_the_end()
+    elapsed = time.perf_counter() - clock
+    per_cycle = elapsed / max(1, sequential.now() - ticks)
+    seconds["insertion"] = time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    corrected = run.correct()
+    seconds["correction"] = time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    used = capacity if capacity is not None else int(store.shared[USED, 0])
+    triangles, neighbors, maker = compact(store.nodes, used, site)
+    inserted_by = np.full(len(points), -1, np.int16)
+    inserted_by[site] = store.by
+    seconds["extraction"] = time.perf_counter() - begun
+    stats = _statistics(run, corrected, seconds, per_cycle)
+    return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
+
+
+def parts_with_sites(options: Options) -> int:
+    """How many threads get sites: with the batch method all but the specialised one."""
+    return options.threads - 1 if options.method == "batch" else options.threads
+
+
+class _Run:
+    """The tasks of a run, called again after the structure has grown."""
+
+    def __init__(self, options: Options, store: Store, order: np.ndarray) -> None:
+        self.options, self.store, self.order = options, store, order
+        self.cpu_seconds = [0.0] * options.threads
+        self.cells = empty_queue(options.queue_length)
+        self.pool = circumcircle.empty_pool(options.threads)
+        self.work = [work_array(store.points) for _ in range(options.threads)]
+        longest = 4 * len(store.points) + 64  # only what is used gets memory
+        locking = options.method == "optimistic" or options.in_place
+        self.scratch = [
+            tuple(np.empty(length if locking else 1, np.int32) for length in (longest, longest, 3 * longest))
+            for _ in range(options.threads)
+        ]
+
+    def stop(self) -> None:
+        self.store.shared[STOP, 0] = 1
+
+    def to_the_end(self) -> None:
+        """Run all threads until all sites are inserted."""
+        while True:
+            results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
+            if sequential.FULL not in results:
+                return
+            self.store.grow()
+
+    def _timed(self, k: int) -> Callable[[], Any]:
+        """The task of thread k, its processor time added up."""
+        task = self._task(k)
+
+        def run() -> Any:
+            begun = time.thread_time()
+            try:
+                return task()
+            finally:
+                self.cpu_seconds[k] += time.thread_time() - begun
+
+        return run
+
+    def _task(self, k: int) -> Callable[[], Any]:
+        o, s = self.options, self.store
+        common = (s.points, s.nodes, s.shared, s.state, self.order, s.by, k)
+        walking = o.location == "walk"
+        if o.in_place:
+            lock = k + 1 if o.threads > 1 else 0
+            return lambda: star.run(*common, lock, self.scratch[k], self.work[k])
+        if o.method == "sequential":
+            return lambda: sequential.run(*common, walking, self.work[k])
+        if o.method == "pessimistic":
+            return lambda: pessimistic.run(*common, walking, self.work[k])
+        if o.method == "optimistic":
+            return lambda: optimistic.run(*common, self.scratch[k], self.work[k])
+        if o.method == "circumcircle":
+            return lambda: circumcircle.run(*common, self.pool, walking, self.work[k])
+        if k < o.threads - 1:
+            return lambda: batch.run_searching(*common, self.cells, walking, o.helping, self.work[k])
+        return lambda: batch.run_specialised(*common[:4], k, self.cells, walking, self.work[k])
+
+    def correct(self) -> int:
+        """Make up for swaps that were given up, if there can be any; how many were made."""
+        s = self.store
+        if not s.state[:, [EXCEPTIONS, GIVEN_UP]].any():
+            return 0
+        return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work[0])
+
+
+def _statistics(run: _Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:
+    options, store = run.options, run.store
+    state = store.state
+
+    def counts(column: int) -> tuple[int, ...]:
+        return tuple(int(x) for x in state[:, column])
+
+    def times(column: int) -> tuple[float, ...]:
+        return tuple(float(x) * per_cycle for x in state[:, column])
+
+    return Statistics(
+        method=options.method,
+        order=options.order,
+        location=options.location,
+        subdivision=options.subdivision,
+        threads=options.threads,
+        queue_length=options.queue_length if options.method == "batch" else 0,
+        inserted=counts(INSERTED),
+        visited=int(state[:, VISITED].sum()),
+        flips=int(state[:, FLIPS].sum()),
+        accesses=int(state[:, ACCESSES].sum()),
+        tests=int(state[:, TESTS].sum()),
+        waits=counts(WAITS),
+        retries=counts(RETRIES),
+        exceptions=int(state[:, EXCEPTIONS].sum()),
+        given_up=int(state[:, GIVEN_UP].sum()),
+        corrected=corrected,
+        growths=store.growths,
+        queue_fill=float(state[-1, QUEUE_FILL]) / max(1, int(state[-1, INSERTED])),
+        seconds=seconds,
+        cpu_seconds=tuple(run.cpu_seconds),
+        location_seconds=times(LOCATION_CYCLES),
+        change_seconds=times(CHANGE_CYCLES),
+        wait_seconds=times(WAIT_CYCLES),
+    )

@@ -1,0 +1,113 @@
+"""Insertion in place, without a history: the conflicts give way to the star of the site.
+
+The two triangles that an insertion adds have the numbers 4 + 2 i and 5 + 2 i, where i is the site's place in
+the order, so that threads need not ask each other for memory.
+"""
+
+from __future__ import annotations
+
+import numba
+
+from ..predicates.borrowed import borrowed
+from .atomics import load, store_release, wait_a_little
+from .cavity import BUSY, claim, give_back
+from .sequential import DONE, STOPPED
+from .store import (
+    CHILD,
+    END,
+    FLIPS,
+    HINT,
+    INSERTED,
+    LOCK,
+    NEIGHBOR,
+    NEXT,
+    RETRIES,
+    ROOTS,
+    STOP,
+    VISITED,
+    stumble,
+)
+from .walk import walk
+
+AT_ONCE = 4  # attempts before a thread that does not get its triangles gives way
+
+
+@numba.njit(cache=True, forceinline=True)
+def _put(nodes, t, q, a, b, edge, following, previous, maker, lock):
+    """The star triangle qab, whose edge ab is ``edge`` from beyond."""
+    store_release(nodes, (t, LOCK), lock)
+    store_release(nodes, (t, 0), q)
+    store_release(nodes, (t, 1), a)
+    store_release(nodes, (t, 2), b)
+    store_release(nodes, (t, NEIGHBOR), edge)
+    store_release(nodes, (t, NEIGHBOR + 1), 4 * following + 2)
+    store_release(nodes, (t, NEIGHBOR + 2), 4 * previous + 1)
+    store_release(nodes, (t, CHILD), -1 - maker)
+    store_release(nodes, (edge >> 2, NEIGHBOR + (edge & 3)), 4 * t)
+
+
+@numba.njit(cache=True, forceinline=True)
+def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
+    """Replace the cavity by the star of q, which has two triangles more: ``fresh`` and the one after it."""
+    cavity[size], cavity[size + 1] = fresh, fresh + 1
+    previous, t = cavity[edges - 1], cavity[0]
+    for i in range(edges):
+        following = cavity[i + 1] if i + 1 < edges else cavity[0]
+        _put(nodes, t, q, rim[3 * i + 1], rim[3 * i + 2], rim[3 * i], following, previous, maker, lock)
+        previous, t = t, following
+    return cavity[0]
+
+
+@numba.njit(nogil=True, cache=True)
+def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
+    """Insert order[NEXT] to order[END - 1] of this thread, each from the triangle where the last one was.
+
+    With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive
+    access to its conflicts and the triangles around them, and begins again where it does not get it.
+    """
+    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
+    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
+    hint, end = state[me, HINT], state[me, END]
+    at = state[me, NEXT]
+    visited = flips = inserted = retries = 0
+    tries, result = 0, DONE
+    while at < end:
+        if load(shared, (STOP, 0)) != 0:
+            result = STOPPED
+            break
+        q = order[at]
+        if by[q] >= 0:  # a vertex of the first triangle
+            at += 1
+            continue
+        t, steps = walk(points, nodes, hint, q, w)
+        visited += steps
+        stumble(shared, state, me)
+        size, edges, count = claim(points, nodes, t, q, lock, held, cavity, rim, w)
+        if size == BUSY:
+            give_back(nodes, held, count)
+            retries += 1
+            tries += 1
+            if tries > AT_ONCE:
+                wait_a_little(tries - AT_ONCE)
+            hint = t
+            continue
+        stumble(shared, state, me)
+        tries = 0
+        fresh = ROOTS + 2 * at
+        hint = fill(nodes, q, cavity, size, rim, edges, fresh, me, lock)
+        if lock != 0:
+            give_back(nodes, held, count)
+            store_release(nodes, (fresh, LOCK), 0)
+            store_release(nodes, (fresh + 1, LOCK), 0)
+        by[q] = me
+        flips += size - 1
+        inserted += 1
+        at += 1
+    state[me, HINT] = hint
+    state[me, NEXT] = at
+    state[me, VISITED] += visited
+    state[me, FLIPS] += flips
+    state[me, INSERTED] += inserted
+    state[me, RETRIES] += retries
+    return result

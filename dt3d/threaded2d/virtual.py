@@ -1,0 +1,321 @@
+"""Virtual time: the methods' own operations on 1 to 64 simulated processing elements.
+
+A scheduler lets the element whose clock is least take the next step of its thread, which is the very step
+that real threads take, on the very structure. It then sets the clock forward by what the step has counted
+(nodes visited, edges flipped, tests ...) times costs that were measured in a sequential run. So waits,
+deadlocks, lock conflicts and a queue that is full or empty come about as they would, and a run can be
+repeated. What is left out: caches, which made the paper's speed-ups more than linear, and the memory's
+bandwidth.
+
+Elements take turns with their threads when a thread waits, and after a slice of time when there are more
+threads than elements.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numba
+import numpy as np
+
+from ..predicates import work_array
+from ..predicates.borrowed import borrowed
+from . import batch, circumcircle, optimistic, sequential
+from .batch import CHANGED, FINISHED, WAITING
+from .dag import locate
+from .first import first_triangle
+from .order import along_curve
+from .plan import Options, parts_with_sites, triangulate
+from .queue import empty_queue
+from .store import (
+    END,
+    EXCEPTIONS,
+    FLIPS,
+    GIVEN_UP,
+    HINT,
+    INSERTED,
+    NEXT,
+    RETRIES,
+    TESTS,
+    VISITED,
+    WAITS,
+    Store,
+)
+from .subdivision import insertion_order
+
+SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
+_METHODS = {
+    "sequential": SEQUENTIAL,
+    "batch": BATCH,
+    "circumcircle": CIRCUMCIRCLE,
+    "optimistic": OPTIMISTIC,
+    "pessimistic": PESSIMISTIC,
+}
+MOST_ELEMENTS = 64
+
+# Not measured, but of the usual size on today's processors: seconds.
+QUEUE = 50e-9  # an element put or taken: a cache line from another core, a compare-and-swap
+LOCKS = 150e-9  # some ten locks taken and given back
+YIELD = 500e-9  # a look whether the wait is over, and giving way
+SLICE = 1e-3  # how long a thread keeps its element when others want it
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Seconds of the operations.
+
+    Attributes
+    ----------
+    visit : float
+        A node on the way of a location.
+    node : float
+        A node made by subdivision (three) or a flip (two), with the tests that led to it.
+    test : float
+        A circum-circle test of the pool.
+    queue, locks, wait : float
+        An element put or taken; the locks of an insertion; a look whether a wait is over.
+    slice : float
+        How long a thread keeps its element when others want it.
+    """
+
+    visit: float
+    node: float
+    test: float
+    queue: float = QUEUE
+    locks: float = LOCKS
+    wait: float = YIELD
+    slice: float = SLICE
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What a simulated run took and counted."""
+
+    seconds: float
+    busy: float  # share of the elements' time that was not waiting
+    waits: int
+    retries: int
+    exceptions: int
+    given_up: int
+    tests: int
+    triangles: int
+
+
+def measure(points: np.ndarray, order: str = "random", repeats: int = 3) -> Costs:
+    """The costs of these points, by the median of sequential runs."""
+    options = Options("sequential", 1, order, "dag", 2, "random", 0)
+    found = []
+    for _ in range(repeats):
+        stats = triangulate(points, options).stats
+        visit = stats.location_seconds[0] / max(1, stats.visited)
+        node = stats.change_seconds[0] / (3 * stats.inserted[0] + 2 * stats.flips)
+        found.append((visit, node))
+    visit, node = np.median(np.array(found), axis=0)
+    # an insertion with f flips makes 3 + 2 f nodes and 3 + 2 f tests; about half of its time is theirs
+    return Costs(float(visit), float(node), float(node) / 2)
+
+
+@numba.njit(cache=True)
+def _counted(state, k):
+    return state[k, VISITED], state[k, FLIPS], state[k, INSERTED], state[k, TESTS]
+
+
+@numba.njit(cache=True, forceinline=True)
+def _step(points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w):
+    """A step of thread k."""
+    if method == BATCH:
+        if k == len(state) - 1:
+            return batch.specialised_step(points, nodes, shared, state, cells, k, False, w)
+        return batch.search_step(points, nodes, shared, state, order, by, cells, k, False, helping, w)
+    if method == CIRCUMCIRCLE:
+        return circumcircle.step(points, nodes, shared, state, order, by, pool, k, False, w)
+    return optimistic.step(points, nodes, shared, state, order, by, held[k], cavity[k], rim[k], k, w)
+
+
+@numba.njit(nogil=True, cache=True)
+def _simulate(
+    points,
+    nodes,
+    shared,
+    state,
+    order,
+    by,
+    pool,
+    cells,
+    held,
+    cavity,
+    rim,
+    method,
+    helping,
+    elements,
+    costs,
+    w,
+):
+    """Seconds of the last element to end, and of all elements that were not spent waiting."""
+    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
+    order, by, pool, cells, w = borrowed(order), borrowed(by), borrowed(pool), borrowed(cells), borrowed(w)
+    held, cavity, rim = borrowed(held), borrowed(cavity), borrowed(rim)
+    visit, node, test, queue, locks, wait, time_slice = costs
+    threads = len(state)
+    clock, since = np.zeros(elements), np.zeros(elements)
+    running = np.full(elements, -1)
+    ready = np.empty(threads + 1, np.int64)  # a ring
+    head, tail = 0, 0
+    for k in range(threads):
+        # the specialised thread of the batch method, which is the last, comes first
+        ready[tail] = threads - 1 - k
+        tail += 1
+    alive, busy, last = threads, 0.0, 0.0
+    while alive > 0:
+        e = 0
+        for i in range(1, elements):
+            if clock[i] < clock[e]:
+                e = i
+        if running[e] < 0:
+            if head != tail:
+                running[e] = ready[head]
+                head = (head + 1) % (threads + 1)
+                since[e] = clock[e]
+            else:
+                # nothing to do until another element gives a thread away
+                clock[e] += wait
+                continue
+        k = running[e]
+        v, f, i, c = _counted(state, k)
+        in_hand = state[k, INSERTED]
+        did = _step(
+            points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w
+        )
+        v2, f2, i2, c2 = _counted(state, k)
+        if did == FINISHED:
+            alive -= 1
+            running[e] = -1
+            last = max(last, clock[e])
+            continue
+        spent = visit * (v2 - v) + node * 2 * (f2 - f) + test * (c2 - c)
+        if method == CIRCUMCIRCLE:
+            # the subdivision is counted with the end of the insertion
+            spent += node * 3 * (i2 - in_hand)
+        elif method == BATCH:
+            spent += node * 3 * (i2 - in_hand) + (queue if did == CHANGED else 0.0)
+        else:
+            spent += node * 3 * (i2 - in_hand) + (locks if did == CHANGED and i2 == in_hand else 0.0)
+        busy += spent
+        if did == WAITING:
+            spent += wait
+            state[k, WAITS] += 1
+        clock[e] += spent
+        last = max(last, clock[e])
+        if head != tail and (did == WAITING or clock[e] - since[e] > time_slice):
+            ready[tail] = k
+            tail = (tail + 1) % (threads + 1)
+            running[e] = -1
+    return last, busy
+
+
+@numba.njit(nogil=True, cache=True)
+def _simulate_critical(points, nodes, shared, state, order, by, elements, costs, w):
+    """The pessimistic method, and with one element the sequential one: as long as an element is in the
+    critical section, others that come to it wait; one thread on each element."""
+    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
+    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    visit, node, test, queue, locks, wait, time_slice = costs
+    clock = np.zeros(elements)
+    free, busy = 0.0, 0.0
+    left = elements
+    ended = np.zeros(elements, np.bool_)
+    last = 0.0
+    while left > 0:
+        e = -1
+        for i in range(elements):
+            if not ended[i] and (e < 0 or clock[i] < clock[e]):
+                e = i
+        while state[e, NEXT] < state[e, END] and by[order[state[e, NEXT]]] >= 0:
+            state[e, NEXT] += 1
+        if state[e, NEXT] == state[e, END]:
+            ended[e] = True
+            left -= 1
+            last = max(last, clock[e])
+            continue
+        q = order[state[e, NEXT]]
+        t, visited = locate(points, nodes, q, w)
+        before = state[e, FLIPS]
+        state[e, HINT] = sequential.insert(points, nodes, shared, state, e, t, q, 0, w)
+        change = node * (3 + 2 * (state[e, FLIPS] - before))
+        by[q] = e
+        state[e, INSERTED] += 1
+        state[e, NEXT] += 1
+        entered = clock[e] + visit * visited
+        if entered < free:
+            state[e, WAITS] += 1
+            entered = free + wait
+        busy += visit * visited + change
+        clock[e] = entered + change
+        free = clock[e]
+    return last, busy
+
+
+def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) -> Simulation:
+    """A run on ``elements`` processing elements, in virtual time.
+
+    Parameters
+    ----------
+    points : float64 (n, 2)
+    options : Options
+        location="dag"; with the pessimistic method a thread for each element.
+    elements : int
+        1 to 64.
+    costs : Costs
+
+    Raises
+    ------
+    ValueError
+        If there are more elements than that, or the location is not "dag".
+    """
+    if not 1 <= elements <= MOST_ELEMENTS:
+        msg = f"elements must be 1 to {MOST_ELEMENTS}, got {elements}"
+        raise ValueError(msg)
+    if options.location != "dag":
+        msg = f"virtual time has location='dag' only, got {options.location!r}"
+        raise ValueError(msg)
+    method = _METHODS[options.method]
+    if method in (SEQUENTIAL, PESSIMISTIC):
+        options = replace(options, threads=elements if method == PESSIMISTIC else 1)
+    site, _ = along_curve(points)
+    if options.order == "random":
+        site = np.sort(site)
+    rows = np.ascontiguousarray(points[site])
+    parts = parts_with_sites(options)
+    order, bounds = insertion_order(rows, options.order, options.subdivision, parts, options.seed)
+    # one thread at a time runs here, so that nothing has to grow in between
+    store = Store(rows, first_triangle(rows, order), options.threads, 24 * len(rows) + 4096 * options.threads)
+    store.state[:parts, NEXT], store.state[:parts, END] = bounds[:-1], bounds[1:]
+    w = work_array(rows)
+    price = (costs.visit, costs.node, costs.test, costs.queue, costs.locks, costs.wait, costs.slice)
+    common = (store.points, store.nodes, store.shared, store.state, order, store.by)
+    if method in (SEQUENTIAL, PESSIMISTIC):
+        seconds, busy = _simulate_critical(*common, options.threads, price, w)
+        elements = options.threads
+    else:
+        locking = method == OPTIMISTIC
+        shape = (options.threads if locking else 1, 4 * len(rows) + 64 if locking else 1)
+        scratch = (
+            np.empty(shape, np.int32),
+            np.empty(shape, np.int32),
+            np.empty((shape[0], 3 * shape[1]), np.int32),
+        )
+        pool = circumcircle.empty_pool(options.threads)
+        cells = empty_queue(max(2, options.queue_length))
+        seconds, busy = _simulate(*common, pool, cells, *scratch, method, options.helping, elements, price, w)
+    s = store.state.sum(axis=0)
+    leaves = int((store.nodes[:, 6] < 0).sum())
+    return Simulation(
+        seconds=float(seconds),
+        busy=float(busy / (seconds * elements)),
+        waits=int(s[WAITS]),
+        retries=int(s[RETRIES]),
+        exceptions=int(s[EXCEPTIONS]),
+        given_up=int(s[GIVEN_UP]),
+        tests=int(s[TESTS]),
+        triangles=leaves,
+    )

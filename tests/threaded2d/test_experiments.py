@@ -1,0 +1,56 @@
+"""The experiments on small sets: their tables, files and the paper's values."""
+
+import csv
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from dt3d.experiments import EXPERIMENTS
+from dt3d.experiments.kohout import sets, speedups
+
+SMALL = {
+    "phases": {"points": 1000},
+    "queue": {"points": "1000,2000"},
+    "batch": {"points": 1000, "repeats": 1},
+    "circumcircle": {"points": 1000, "repeats": 1},
+    "arc": {"points": 500, "repeats": 1},
+    "subdivision": {"points": 1000},
+    "table4": {"points": 1000, "repeats": 1},
+    "crater": {"points": 1000, "repeats": 1},
+}
+
+
+def test_all_are_here():
+    assert {f"kohout-{name}" for name in SMALL} == {name for name in EXPERIMENTS if name.startswith("kohout")}
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_experiment(name, tmp_path):
+    with open(tmp_path / "screen", "w") as file:
+        console = Console(file=file, record=True, width=200)
+        rows = EXPERIMENTS[f"kohout-{name}"](tmp_path, console, **SMALL[name])
+        text = console.export_text()
+    with open(tmp_path / f"kohout-{name}.csv", newline="") as file:
+        table = list(csv.DictReader(file))
+    assert len(table) == len(rows) >= 1
+    assert set(table[0]) == set(rows[0])
+    assert (tmp_path / f"kohout-{name}.png").read_bytes()[:4] == b"\x89PNG"
+    assert "Kohout et al. 2004" in text
+    virtual = [v for row in rows for c, v in row.items() if c.startswith("virtual")]
+    assert all(0.1 < v < 8 for v in virtual)
+
+
+def test_the_values_of_the_paper():
+    assert speedups.TABLE4["batch"] == (2.42, 3.81)
+    assert speedups.BATCH[100_000][2] == pytest.approx(speedups.TABLE4["batch"][0], abs=0.005)
+    assert speedups.CIRCUMCIRCLE[100_000][2] == 2.399
+
+
+@pytest.mark.parametrize("name", sets.DISTRIBUTIONS)
+def test_the_sets(name):
+    points = sets.DISTRIBUTIONS[name](500)
+    assert points.shape == (500, 2)
+    assert np.isfinite(points).all()
+    assert len(np.unique(points, axis=0)) == 500
+    np.testing.assert_array_equal(points, sets.DISTRIBUTIONS[name](500))

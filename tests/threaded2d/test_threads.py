@@ -1,0 +1,95 @@
+"""Stopping: Ctrl-C and exceptions end all threads; and atomics count right."""
+
+import os
+import signal
+import threading
+import time
+
+import numba
+import numpy as np
+import pytest
+
+from dt3d import threaded2d
+from dt3d.threaded2d import atomics, star
+from dt3d.threaded2d.threads import together
+
+from .families import uniform
+
+
+@numba.njit(nogil=True)
+def _count(words, rounds, me):
+    for _ in range(rounds):
+        atomics.acquire(words, (0, 0), me)
+        words[1, 0] += 1  # not atomic: the lock has to do it
+        atomics.release(words, (0, 0))
+        atomics.add(words, (2, 0), 2)
+
+
+def test_locks_and_additions_of_contending_threads():
+    words = atomics.padded(3)
+    together([lambda k=k: _count(words, 20_000, k + 1) for k in range(4)], lambda: None)
+    assert words[:, 0].tolist() == [0, 80_000, 160_000]
+
+
+@numba.njit
+def _single(words):
+    old = atomics.exchange(words, 0, 5)
+    missed = atomics.compare_and_swap(words, 0, 4, 9)
+    swapped = atomics.compare_and_swap(words, 0, 5, 7)
+    atomics.store_release(words, 1, atomics.load_acquire(words, 0) + 1)
+    return old, missed, swapped
+
+
+def test_atomics_one_by_one():
+    words = np.array([3, 0], np.int32)
+    assert _single(words) == (3, False, True)
+    assert words.tolist() == [7, 8]
+
+
+def test_only_integers_are_atomic():
+    with pytest.raises(numba.TypingError, match="integer arrays"):
+        _single(np.zeros(2))
+
+
+def test_an_exception_in_one_thread_stops_the_others(monkeypatch):
+    began = threading.Event()
+    run = star.run
+
+    def failing(*args):
+        if args[6] == 1:
+            began.wait()
+            msg = "thread 1 fails"
+            raise RuntimeError(msg)
+        began.set()
+        return run(*args)
+
+    monkeypatch.setattr(star, "run", failing)
+    before = threading.active_count()
+    with pytest.raises(RuntimeError, match="thread 1 fails"):
+        threaded2d.Delaunay(uniform(200_000), method="optimistic", threads=2, location="walk")
+    assert threading.active_count() == before
+
+
+@pytest.mark.parametrize(
+    "method", ["auto", "batch", "circumcircle", "pessimistic", "optimistic", "sequential"]
+)
+def test_an_interrupt_stops_all_threads_within_a_second(method):
+    threaded2d.Delaunay(uniform(100), method=method)  # compiled before the clock runs
+    points = uniform(400_000)
+    before = threading.active_count()
+    sent = []
+
+    def interrupt():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.25, interrupt)
+    timer.start()
+    try:
+        threaded2d.Delaunay(points, method=method, order="brio" if method == "auto" else "random")
+        timer.join()  # the machine was faster
+    except KeyboardInterrupt:
+        assert time.perf_counter() - sent[0] < 1
+    while threading.active_count() > before and time.perf_counter() - sent[0] < 1:
+        time.sleep(0.001)  # the threads have ended, but for what Python does after them
+    assert threading.active_count() == before
