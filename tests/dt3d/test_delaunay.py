@@ -81,7 +81,7 @@ def test_degenerate_sets_under_the_papers_perturbation(name):
 
 
 def test_the_papers_cube():
-    tri = dt3d.Delaunay(grid(7), machine=sv.Simulated(processors=32))
+    tri = dt3d.Delaunay(grid(7), robustness="perturb", machine=sv.Simulated(processors=32))
     assert len(tri.simplices) == 1296
     assert tri.stats.iterations == 5
     validate(tri)
@@ -142,7 +142,7 @@ def test_statistics():
 
 def test_single_precision():
     points = np.random.default_rng(7).random((500, 3)).astype(np.float32)
-    tri = dt3d.Delaunay(points, dtype=np.float32)
+    tri = dt3d.Delaunay(points, robustness="perturb", dtype=np.float32)
     validate_topology_only = (check_indices, check_neighbors)
     for check in validate_topology_only:
         check(tri)

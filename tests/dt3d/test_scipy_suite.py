@@ -135,7 +135,7 @@ def suite(request):
     return importlib.import_module("scipy.spatial.tests.test_qhull")
 
 
-def tests_of_delaunay(suite):
+def named_for_delaunay(suite):
     """Tests of the module by name, of those whose text names the class, and all of the class for it."""
     found = {}
     for name, thing in vars(suite).items():
@@ -150,7 +150,7 @@ def tests_of_delaunay(suite):
 
 
 def test_every_test_of_delaunay_is_run_or_impossible(suite):
-    new = sorted(set(tests_of_delaunay(suite)) - set(RUN) - set(IMPOSSIBLE))
+    new = sorted(set(named_for_delaunay(suite)) - set(RUN) - set(IMPOSSIBLE))
     assert not new, (
         f"SciPy {scipy.__version__} has tests of Delaunay that are not run here and not called impossible; "
         f"add each to RUN or to IMPOSSIBLE: {', '.join(new)}"
@@ -163,7 +163,7 @@ def test_every_test_of_delaunay_is_run_or_impossible(suite):
     "name", [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in RUN]
 )
 def test_scipys(name, method, suite, monkeypatch):
-    if name not in tests_of_delaunay(suite):
+    if name not in named_for_delaunay(suite):
         pytest.skip(f"SciPy {scipy.__version__} does not have {name}")
     made = []
 
