@@ -12,6 +12,7 @@ A query's warrants are consecutive in the list, a super-segment; a segmented sca
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -101,17 +102,8 @@ class _Steps(NamedTuple):
     conclude: Callable
 
 
-_STEPS: dict[Question, _Steps] = {}
-
-
+@cache  # so that compiled kernels are found again
 def _steps_of(question: Question) -> _Steps:
-    # made once for a question, so that compiled kernels are found again
-    if question not in _STEPS:
-        _STEPS[question] = _make_steps(question)
-    return _STEPS[question]
-
-
-def _make_steps(question: Question) -> _Steps:
     def request(query: Any, bound: Any, new: Box, dead: Box, k: Any, grid: Grid) -> tuple[Any, Any]:
         i, j, h = difference_cell(new, dead, k)
         low, high = corners(i, j, h, grid)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -96,21 +97,15 @@ def execute(buckets: Buckets, query: Any, start: sv.Vector, length: sv.Vector, q
     return best
 
 
-_EXAMINATIONS: dict[Question, Callable] = {}
-
-
+@cache  # so that compiled kernels are found again
 def _examination(question: Question) -> Callable:
-    # made once for a question, so that compiled kernels are found again
-    if question not in _EXAMINATIONS:
+    def examine(query: Any, point: Any, site: Any, active: Any, best: Best) -> Best:
+        low, high = question.score(query, point, site)
+        worst = jnp.full_like(low, jnp.inf)
+        low, high = jnp.where(active, low, worst), jnp.where(active, high, worst)
+        return _least(best, Best(low, jnp.where(low < worst, site, NO_SITE), worst, high))
 
-        def examine(query: Any, point: Any, site: Any, active: Any, best: Best) -> Best:
-            low, high = question.score(query, point, site)
-            worst = jnp.full_like(low, jnp.inf)
-            low, high = jnp.where(active, low, worst), jnp.where(active, high, worst)
-            return _least(best, Best(low, jnp.where(low < worst, site, NO_SITE), worst, high))
-
-        _EXAMINATIONS[question] = examine
-    return _EXAMINATIONS[question]
+    return examine
 
 
 def search(buckets: Buckets, queries: Any, first: tuple[Point, Point], question: Question) -> Answer:

@@ -8,6 +8,7 @@ and if nothing is found below it under greater ones, up to the first bound or wi
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple
 
 import jax
@@ -36,17 +37,8 @@ class _Steps(NamedTuple):
     bound: Callable
 
 
-_STEPS: dict[Question, _Steps] = {}
-
-
+@cache  # so that compiled kernels are found again
 def _steps_of(question: Question) -> _Steps:
-    # made once for a question, so that compiled kernels are found again
-    if question not in _STEPS:
-        _STEPS[question] = _make_steps(question)
-    return _STEPS[question]
-
-
-def _make_steps(question: Question) -> _Steps:
     def admits(query: Bounded, low: Point, high: Point) -> Any:
         return question.admits(query.query, query.high, low, high)
 
