@@ -20,7 +20,7 @@ from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
 
-def _element(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any) -> Any:
+def element(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any) -> Any:
     """A pointer to one element of an array; the index is an integer or a tuple of them."""
     parts = _parts(index_type)
     values = cgutils.unpack_tuple(builder, index) if isinstance(index_type, types.BaseTuple) else [index]
@@ -54,7 +54,7 @@ def _loader(ordering: str) -> Any:
         _check(array, index)
 
         def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            pointer = _element(context, builder, array, args[0], index, args[1])
+            pointer = element(context, builder, array, args[0], index, args[1])
             return builder.load_atomic(pointer, ordering, _bytes(array))
 
         return array.dtype(array, index), codegen
@@ -68,7 +68,7 @@ def _storer(ordering: str) -> Any:
         _check(array, index)
 
         def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            pointer = _element(context, builder, array, args[0], index, args[1])
+            pointer = element(context, builder, array, args[0], index, args[1])
             word = context.cast(builder, args[2], value, array.dtype)
             builder.store_atomic(word, pointer, ordering, _bytes(array))
             return context.get_dummy_value()
@@ -84,7 +84,7 @@ def _modifier(operation: str) -> Any:
         _check(array, index)
 
         def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            pointer = _element(context, builder, array, args[0], index, args[1])
+            pointer = element(context, builder, array, args[0], index, args[1])
             word = context.cast(builder, args[2], value, array.dtype)
             return builder.atomic_rmw(operation, pointer, word, "seq_cst")
 
@@ -113,7 +113,7 @@ def compare_and_swap(typingctx: Any, array: Any, index: Any, expected: Any, valu
     _check(array, index)
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pointer = _element(context, builder, array, args[0], index, args[1])
+        pointer = element(context, builder, array, args[0], index, args[1])
         old = context.cast(builder, args[2], expected, array.dtype)
         new = context.cast(builder, args[3], value, array.dtype)
         pair = builder.cmpxchg(pointer, old, new, ordering="seq_cst", failordering="seq_cst")
@@ -144,6 +144,13 @@ give_way = types.ExternalFunction(_YIELD, types.int32())
 """give_way(): lets another thread have the processor."""
 _sleep = types.ExternalFunction(_SLEEP, types.int32(types.uint32))
 
+
+@numba.njit(cache=True)
+def nap():
+    """Sleep for some 30 microseconds."""
+    _sleep(np.uint32(_NAP))
+
+
 PATIENCE = 64
 
 
@@ -157,7 +164,7 @@ def wait_a_little(turn):
     if turn < PATIENCE:
         give_way()
     else:
-        _sleep(np.uint32(_NAP))
+        nap()
 
 
 @numba.njit(cache=True)

@@ -1,68 +1,48 @@
 """The batch method: searching threads, a queue, one specialised thread (Kohout et al. 2004, section 3.3,
 Algorithm 2).
 
-A searching thread locates a site as far as the parents of the leaves and puts it into the queue. The
-specialised thread finishes the location, subdivides and legalises. In the paper's variant a searching thread
-that finds the queue full takes an element, finishes its location, and puts it back.
+A searching thread locates sites, several at a time, and puts each into the queue with the leaf that contains
+it; the paper sends the leaf's parent. The specialised thread finishes the location, as there may be children
+by then, subdivides and legalises. In the paper's variant a searching thread that finds the queue full takes
+an element, finishes its location, and puts it back.
 
-Both kinds of thread go in steps that return what happened, so that a scheduler can run them in virtual time
-too.
+The specialised thread knows which sites come next, and asks for their leaves while it inserts others.
 """
 
 from __future__ import annotations
 
 import numba
+import numpy as np
 
 from ..predicates.borrowed import borrowed
-from .atomics import cycles, load, load_acquire, wait_a_little
-from .dag import child_of, descend
+from .atomics import cycles
+from .dag import descend
 from .flips import insert
-from .geometry import root_of
-from .queue import fill_of, get, put
-from .sequential import DONE, FULL, STOPPED
+from .lanes import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
+from .prefetch import prefetch, prefetch_around, prefetch_beyond
+from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, next_site, pause, verdict
 from .store import (
+    AT,
     CHANGE_CYCLES,
-    CHILD,
-    END,
+    HELPED,
     HINT,
+    IN_HAND,
     INSERTED,
     LOCATION_CYCLES,
     NEXT,
-    NODE,
-    OTHER_NODE,
-    OTHER_SITE,
-    PHASE,
     QUEUE_FILL,
-    SITE,
-    SOFT_LIMIT,
-    STOP,
-    USED,
     VISITED,
-    WAIT_CYCLES,
-    WAITS,
     stumble,
 )
 from .walk import walk_history
 
-# what a step returns
-LOCATED, CHANGED, WAITING, FINISHED = range(4)
-
-# phases of a searching thread: nothing in hand, its own site, its own and a helped one
-EMPTY, OWN, BOTH = range(3)
+AT_ONCE = 8  # elements that are put or taken together
 
 
-@numba.njit(cache=True, forceinline=True)
-def locate_parent(points, nodes, q, w):
-    """The last node on the way to q that has children, and how many were visited; a root where none has."""
-    t = root_of(points, nodes, q, w)
-    parent, visited = t, 0
-    child = load_acquire(nodes, (t, CHILD))
-    while child >= 0:
-        parent = t
-        t = child_of(points, nodes, t, child, q, w)
-        child = load_acquire(nodes, (t, CHILD))
-        visited += 1
-    return parent, visited
+def empty_hands(threads: int) -> np.ndarray:
+    """Elements that threads have in hand, and a helped one: int64 (threads, AT_ONCE + 1, 2)."""
+    return np.empty((threads, AT_ONCE + 1, 2), np.int64)
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -71,52 +51,93 @@ def _finish(points, nodes, t, q, walking, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def search_step(points, nodes, shared, state, order, by, cells, me, walking, helping, w):
-    """One step of searching thread ``me``: locate a site, put it into the queue, or help."""
-    if state[me, PHASE] == EMPTY:
-        while state[me, NEXT] < state[me, END] and by[order[state[me, NEXT]]] >= 0:
-            state[me, NEXT] += 1  # a vertex of the first triangle
-        if state[me, NEXT] == state[me, END]:
-            return FINISHED
-        q = order[state[me, NEXT]]
-        if walking:
-            t, visited = walk_history(points, nodes, state[me, HINT], q, w)
-            state[me, HINT] = t
-        else:
-            t, visited = locate_parent(points, nodes, q, w)
-        state[me, SITE], state[me, NODE], state[me, PHASE] = q, t, OWN
-        state[me, VISITED] += visited
-        return LOCATED
-    if state[me, PHASE] == BOTH:
-        if not put(cells, shared, state[me, OTHER_SITE], state[me, OTHER_NODE]):
-            return WAITING
-        state[me, PHASE] = OWN
-    if put(cells, shared, state[me, SITE], state[me, NODE]):
-        by[state[me, SITE]] = me
+def _locate(points, nodes, state, order, lanes, hands, me, walking, w):
+    """Locate one more site of thread ``me``, into its hands; whether there was one left."""
+    if walking:
+        q = next_site(state, order, me)
+        if q < 0:
+            return False
         state[me, NEXT] += 1
-        state[me, PHASE] = EMPTY
+        t, visited = walk_history(points, nodes, state[me, HINT], q, w)
+        state[me, HINT] = t
+    else:
+        for i in range(LANES):
+            if lanes[i, LANE_SITE] == EMPTY:
+                q = next_site(state, order, me)
+                if q < 0:
+                    break
+                state[me, NEXT] += 1
+                start(points, nodes, lanes, i, q, w)
+        i, visited = advance(points, nodes, lanes, w)
+        if i == EMPTY:
+            return False
+        q, t = lanes[i, LANE_SITE], lanes[i, LANE_NODE]
+        lanes[i, LANE_SITE] = EMPTY
+    state[me, VISITED] += visited
+    at = state[me, IN_HAND]
+    hands[at, ITEM_SITE], hands[at, ITEM_NODE] = q, t
+    state[me, IN_HAND] = at + 1
+    return True
+
+
+@numba.njit(cache=True, forceinline=True)
+def search_step(points, nodes, shared, state, order, cells, lanes, hands, me, walking, helping, w):
+    """One step of searching thread ``me``: locate a site, put some into the queue, or help."""
+    if state[me, HELPED] != 0:
+        if put(cells, shared, hands, AT_ONCE, 1) == 0:
+            return WAITING
+        state[me, HELPED] = 0
         return CHANGED
-    if helping:
-        found, q, t = get(cells, shared)
-        if found:
-            t, visited = _finish(points, nodes, t, q, walking, w)
-            state[me, VISITED] += visited
-            state[me, OTHER_SITE], state[me, OTHER_NODE], state[me, PHASE] = q, t, BOTH
-            return LOCATED
+    left = state[me, IN_HAND] - state[me, AT]
+    if state[me, IN_HAND] < AT_ONCE and _locate(points, nodes, state, order, lanes, hands, me, walking, w):
+        return LOCATED
+    if left == 0:
+        return FINISHED
+    count = put(cells, shared, hands, state[me, AT], left)
+    if count > 0:
+        state[me, AT] += count
+        if count == left:
+            state[me, AT] = state[me, IN_HAND] = 0
+        return CHANGED
+    if helping and get(cells, shared, hands, AT_ONCE, 1) == 1:
+        q, t = hands[AT_ONCE, ITEM_SITE], hands[AT_ONCE, ITEM_NODE]
+        t, visited = _finish(points, nodes, t, q, walking, w)
+        state[me, VISITED] += visited
+        hands[AT_ONCE, ITEM_NODE] = t
+        state[me, HELPED] = 1
+        return LOCATED
     return WAITING
 
 
 @numba.njit(cache=True, forceinline=True)
-def specialised_step(points, nodes, shared, state, cells, me, walking, w):
+def _prepare(points, nodes, items, at, count):
+    """Ask for what the elements after items[at] will need: the next but one's surroundings, and the next
+    one's."""
+    if at + 2 < count:
+        prefetch_around(points, nodes, items[at + 2, ITEM_NODE])
+    if at + 1 < count:
+        prefetch_beyond(points, nodes, items[at + 1, ITEM_NODE])
+
+
+@numba.njit(cache=True, forceinline=True)
+def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w):
     """One step of the specialised thread: an element from the queue is inserted."""
     if state[me, INSERTED] == len(points) - 3:
         return FINISHED
-    fill = fill_of(shared)
-    found, q, t = get(cells, shared)
-    if not found:
-        return WAITING
-    state[me, QUEUE_FILL] += fill
-    t, visited = _finish(points, nodes, t, q, walking, w)
+    if state[me, AT] == state[me, IN_HAND]:
+        fill = fill_of(shared)
+        count = get(cells, shared, hands, 0, AT_ONCE)
+        if count == 0:
+            return WAITING
+        state[me, QUEUE_FILL] += fill * count
+        state[me, AT], state[me, IN_HAND] = 0, count
+        for i in range(count):
+            prefetch(nodes, hands[i, ITEM_NODE])
+    at = state[me, AT]
+    state[me, AT] += 1
+    _prepare(points, nodes, hands, at, state[me, IN_HAND])
+    q = hands[at, ITEM_SITE]
+    t, visited = _finish(points, nodes, hands[at, ITEM_NODE], q, walking, w)
     insert(points, nodes, shared, state, me, t, q, 0, w)
     state[me, VISITED] += visited
     state[me, INSERTED] += 1
@@ -124,60 +145,42 @@ def specialised_step(points, nodes, shared, state, cells, me, walking, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def run_searching(points, nodes, shared, state, order, by, me, cells, walking, helping, w):
+def run_searching(points, nodes, shared, state, order, me, cells, lanes, hands, walking, helping, w):
     """A searching thread until its sites are in the queue; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, cells, w = borrowed(order), borrowed(by), borrowed(cells), borrowed(w)
-    waiting = 0
+    order, cells, lanes, hands, w = (
+        borrowed(order),
+        borrowed(cells),
+        borrowed(lanes),
+        borrowed(hands),
+        borrowed(w),
+    )
+    waiting = False
     begun = cycles()
     while True:
-        if load(shared, (STOP, 0)) != 0:
-            return STOPPED
-        if load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
-            return FULL
-        did = search_step(points, nodes, shared, state, order, by, cells, me, walking, helping, w)
-        if did == FINISHED:
+        did = search_step(points, nodes, shared, state, order, cells, lanes, hands, me, walking, helping, w)
+        waiting, begun = pause(state, me, LOCATION_CYCLES, did, waiting, begun)
+        reason = DONE if did == FINISHED else verdict(shared, True, True)
+        if reason != GO_ON:
             state[me, LOCATION_CYCLES] += cycles() - begun
-            return DONE
-        if (did == WAITING) != (waiting > 0):
-            # a wait begins or ends
-            ended = cycles()
-            state[me, WAIT_CYCLES if waiting else LOCATION_CYCLES] += ended - begun
-            begun = ended
-            state[me, WAITS] += did == WAITING
-        if did == WAITING:
-            wait_a_little(waiting)
-            waiting += 1
-        else:
-            waiting = 0
+            return reason
         stumble(shared, state, me)
 
 
 @numba.njit(nogil=True, cache=True)
-def run_specialised(points, nodes, shared, state, me, cells, walking, w):
+def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    cells, w = borrowed(cells), borrowed(w)
-    waiting = 0
+    cells, hands, w = borrowed(cells), borrowed(hands), borrowed(w)
+    waiting = False
     begun = cycles()
     while True:
-        if load(shared, (STOP, 0)) != 0:
-            return STOPPED
-        if load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
-            return FULL
-        did = specialised_step(points, nodes, shared, state, cells, me, walking, w)
+        reason = verdict(shared, True, True)
+        if reason != GO_ON:
+            return reason
+        did = specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
+        waiting, begun = pause(state, me, CHANGE_CYCLES, did, waiting, begun)
         if did == FINISHED:
             state[me, CHANGE_CYCLES] += cycles() - begun
             return DONE
-        if (did == WAITING) != (waiting > 0):
-            # a wait begins or ends
-            ended = cycles()
-            state[me, WAIT_CYCLES if waiting else CHANGE_CYCLES] += ended - begun
-            begun = ended
-            state[me, WAITS] += did == WAITING
-        if did == WAITING:
-            wait_a_little(waiting)
-            waiting += 1
-        else:
-            waiting = 0
         stumble(shared, state, me)

@@ -15,25 +15,39 @@ swaps. Those are made up for at the end (`correction`).
 from __future__ import annotations
 
 import numba
-import numpy as np
 
 from ..predicates.borrowed import borrowed
 from ..predicates.filtered2d import orient2d
-from .atomics import acquire, cycles, load, load_acquire, release, store, wait_a_little
-from .batch import CHANGED, FINISHED, LOCATED, WAITING
-from .dag import descend, locate
+from .atomics import cycles, load, load_acquire, wait_a_little
+from .dag import descend
 from .flips import flip, illegal, subdivide
-from .geometry import conflicts
-from .sequential import DONE, FULL, STOPPED
+from .pool import (
+    EXCEPTIONAL,
+    NOBODY,
+    blocker_of,
+    clear_exception,
+    publish,
+    retire,
+    still_waits,
+    wait_for,
+)
+from .steps import (
+    CHANGED,
+    DONE,
+    FINISHED,
+    GO_ON,
+    LOCATED,
+    STOPPED,
+    WAITING,
+    find,
+    next_site,
+    spend,
+    verdict,
+)
 from .store import (
     ACCESSES,
-    BLOCKED_SINCE,
-    BLOCKER,
     CHANGE_CYCLES,
     CHILD,
-    CRITICAL,
-    END,
-    EXCEPTIONS,
     GIVEN_UP,
     HINT,
     INSERTED,
@@ -44,10 +58,6 @@ from .store import (
     NODE,
     PHASE,
     SITE,
-    SOFT_LIMIT,
-    STOP,
-    TESTS,
-    USED,
     VISITED,
     WAIT_CYCLES,
     WAITS,
@@ -55,77 +65,12 @@ from .store import (
 )
 from .walk import walk_history
 
-# columns of `pool`, a row for each thread: its site or -1, how many it has finished, for whom it waits or -1,
-# and whether another one made use of its waiting
-POOL_SITE, SERIAL, WAITS_FOR, EXCEPTIONAL = range(4)
-
 # phases: next site, subdivision, legalisation
 BEGIN, SUBDIVIDE, LEGALISE = range(3)
 
-NOBODY = -1
-
-
-def empty_pool(threads: int) -> np.ndarray:
-    """The pool of sites being inserted, int64 (threads, 16)."""
-    pool = np.zeros((threads, 16), np.int64)
-    pool[:, [POOL_SITE, WAITS_FOR]] = -1
-    return pool
-
-
-@numba.njit(cache=True, forceinline=True)
-def _leads_to(pool, i, me):
-    """Whether thread i waits for thread ``me``, through others perhaps."""
-    for _ in range(len(pool)):
-        i = load(pool, (i, WAITS_FOR))
-        if i == me:
-            return True
-        if i == NOBODY:
-            return False
-    return False
-
-
-@numba.njit(cache=True, forceinline=True)
-def _touches(points, nodes, t, q, w):
-    """Whether the insertion of q may change t: it is in conflict, or a vertex already."""
-    a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
-    return a == q or b == q or c == q or conflicts(points, a, b, c, q, w)
-
-
-@numba.njit(cache=True, forceinline=True)
-def _blocker(points, nodes, state, pool, me, triangles, count, w):
-    """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished;
-    or `NOBODY`."""
-    for i in range(len(pool)):
-        if i == me:
-            continue
-        serial = load(pool, (i, SERIAL))
-        q = load(pool, (i, POOL_SITE))
-        if q < 0:
-            continue
-        for x in range(count):
-            t = triangles[x]
-            state[me, TESTS] += 1
-            if _touches(points, nodes, t, q, w):
-                if not _leads_to(pool, i, me):
-                    return i, serial
-                store(pool, (i, EXCEPTIONAL), 1)
-                state[me, EXCEPTIONS] += 1
-                break
-    return NOBODY, 0
-
-
-@numba.njit(cache=True, forceinline=True)
-def _wait_for(shared, state, pool, me, i, serial):
-    """Enter that ``me`` waits for i to finish; where i waits for ``me`` already, do not."""
-    acquire(shared, (CRITICAL, 0), me + 1)
-    deadlock = _leads_to(pool, i, me)
-    if not deadlock:
-        store(pool, (me, WAITS_FOR), i)
-        state[me, BLOCKER], state[me, BLOCKED_SINCE] = i, serial
-    release(shared, (CRITICAL, 0))
-    if deadlock:
-        return CHANGED  # the next look leaves i out of account
-    return WAITING
+# The first thread is alone for so many sites a thread, and no longer than an eighth of its sites: where there
+# are but a few triangles, every insertion meets the others'.
+HEAD_START = 64
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -154,6 +99,7 @@ def _edge_through(points, nodes, t, q, w):
 
 @numba.njit(cache=True, forceinline=True)
 def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
+    """Subdivide the leaf that contains the site of ``me``, or find whom to wait for."""
     q = state[me, SITE]
     if walking:
         t, visited = walk_history(points, nodes, state[me, NODE], q, w)
@@ -173,9 +119,10 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     else:
         u, j, d, e = t, 0, a, b
         looked_at = (t, a >> 2, b >> 2, c >> 2, t, t)
-    i, serial = _blocker(points, nodes, state, pool, me, looked_at, 4 if k < 0 else 6, w)
+    i, serial = blocker_of(points, nodes, state, pool, me, looked_at, 4 if k < 0 else 6, w)
     if i != NOBODY:
-        return _wait_for(shared, state, pool, me, i, serial)
+        # where i waits for this thread, the next look leaves it out of account
+        return WAITING if wait_for(shared, state, pool, me, i, serial) else CHANGED
     # what was looked at must be what is there
     if (
         not _is_leaf(nodes, t)
@@ -199,38 +146,41 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def _try_legalisation(points, nodes, shared, state, by, pool, me, w):
+def _try_flip(points, nodes, shared, state, pool, me, f, w):
+    """Flip the edge of star triangle f opposite the site of ``me``, or find whom to wait for."""
+    state[me, ACCESSES] += 1
+    edge = _edge(nodes, f, 0)
+    u, j = edge >> 2, edge & 3
+    a, b = _edge(nodes, u, (j + 1) % 3), _edge(nodes, u, (j + 2) % 3)
+    i, serial = blocker_of(points, nodes, state, pool, me, (u, a >> 2, b >> 2), 3, w)
+    if i != NOBODY:
+        return WAITING if wait_for(shared, state, pool, me, i, serial) else CHANGED
+    if (
+        edge == _edge(nodes, f, 0)
+        and _is_leaf(nodes, u)
+        and a == _edge(nodes, u, (j + 1) % 3)
+        and b == _edge(nodes, u, (j + 2) % 3)
+    ):
+        state[me, NODE] = flip(nodes, shared, state, me, f, 0)
+    return CHANGED
+
+
+@numba.njit(cache=True, forceinline=True)
+def _try_legalisation(points, nodes, shared, state, pool, me, w):
+    """Go round the star to the next edge to be flipped, and try that; or end the insertion."""
     f = state[me, NODE]
-    given_up = load(pool, (me, EXCEPTIONAL)) != 0 or not _is_leaf(nodes, f)
-    while not given_up and not illegal(points, nodes, f, w):
-        if nodes[f, 2] == state[me, LAST]:
-            break
-        f = _edge(nodes, f, 1) >> 2
-        state[me, NODE] = f
-    else:
-        if not given_up:
-            state[me, ACCESSES] += 1
-            edge = _edge(nodes, f, 0)
-            u, j = edge >> 2, edge & 3
-            a, b = _edge(nodes, u, (j + 1) % 3), _edge(nodes, u, (j + 2) % 3)
-            i, serial = _blocker(points, nodes, state, pool, me, (u, a >> 2, b >> 2), 3, w)
-            if i != NOBODY:
-                return _wait_for(shared, state, pool, me, i, serial)
-            if (
-                edge == _edge(nodes, f, 0)
-                and _is_leaf(nodes, u)
-                and a == _edge(nodes, u, (j + 1) % 3)
-                and b == _edge(nodes, u, (j + 2) % 3)
-            ):
-                state[me, NODE] = flip(nodes, shared, state, me, f, 0)
-            return CHANGED
+    if load(pool, (me, EXCEPTIONAL)) != 0 or not _is_leaf(nodes, f):
         state[me, GIVEN_UP] += 1
-    q = state[me, SITE]
-    by[q] = me
+    else:
+        while not illegal(points, nodes, f, w):
+            if nodes[f, 2] == state[me, LAST]:
+                break
+            f = _edge(nodes, f, 1) >> 2
+            state[me, NODE] = f
+        else:
+            return _try_flip(points, nodes, shared, state, pool, me, f, w)
     state[me, HINT] = f
-    store(pool, (me, EXCEPTIONAL), 0)
-    store(pool, (me, POOL_SITE), -1)
-    store(pool, (me, SERIAL), load(pool, (me, SERIAL)) + 1)
+    retire(pool, me)
     state[me, INSERTED] += 1
     state[me, NEXT] += 1
     state[me, PHASE] = BEGIN
@@ -238,55 +188,52 @@ def _try_legalisation(points, nodes, shared, state, by, pool, me, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def step(points, nodes, shared, state, order, by, pool, me, walking, w):
+def step(points, nodes, shared, state, order, pool, me, walking, w):
     """One step of thread ``me``: locate a site, try to subdivide, or try to flip an edge."""
-    i = state[me, BLOCKER]
-    if i != NOBODY:
-        if load(pool, (i, SERIAL)) == state[me, BLOCKED_SINCE]:
-            return WAITING
-        store(pool, (me, WAITS_FOR), NOBODY)
-        state[me, BLOCKER] = NOBODY
+    if still_waits(state, pool, me):
+        return WAITING
     if state[me, PHASE] == SUBDIVIDE:
-        store(pool, (me, EXCEPTIONAL), 0)  # it locates again in any case
+        clear_exception(pool, me)  # it locates again in any case
         return _try_subdivision(points, nodes, shared, state, pool, me, walking, w)
     if state[me, PHASE] == LEGALISE:
-        return _try_legalisation(points, nodes, shared, state, by, pool, me, w)
-    while state[me, NEXT] < state[me, END] and by[order[state[me, NEXT]]] >= 0:
-        state[me, NEXT] += 1  # a vertex of the first triangle
-    if state[me, NEXT] == state[me, END]:
+        return _try_legalisation(points, nodes, shared, state, pool, me, w)
+    q = next_site(state, order, me)
+    if q < 0:
         return FINISHED
-    q = order[state[me, NEXT]]
-    if walking:
-        t, visited = walk_history(points, nodes, state[me, HINT], q, w)
-    else:
-        t, visited = locate(points, nodes, q, w)
+    t, visited = find(points, nodes, state, me, q, walking, w)
     state[me, SITE], state[me, NODE], state[me, PHASE] = q, t, SUBDIVIDE
     state[me, VISITED] += visited
-    store(pool, (me, POOL_SITE), q)
+    publish(pool, me, q)
     return LOCATED
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, by, me, pool, walking, w):
-    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
+def run(points, nodes, shared, state, order, me, pool, alone, walking, w):
+    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before.
+
+    The others begin when thread 0 has inserted ``alone`` sites.
+    """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, pool, w = borrowed(order), borrowed(by), borrowed(pool), borrowed(w)
+    order, pool, w = borrowed(order), borrowed(pool), borrowed(w)
+    waiting = 0
+    while me > 0 and load(state, (0, INSERTED)) < alone:
+        if verdict(shared, True, False) == STOPPED:
+            return STOPPED
+        wait_a_little(waiting)
+        waiting += 1
     waiting = 0
     begun = cycles()
     while True:
-        if load(shared, (STOP, 0)) != 0:
-            return STOPPED
-        if state[me, PHASE] == BEGIN and load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
-            return FULL
-        did = step(points, nodes, shared, state, order, by, pool, me, walking, w)
+        reason = verdict(shared, True, state[me, PHASE] == BEGIN)
+        if reason != GO_ON:
+            return reason
+        did = step(points, nodes, shared, state, order, pool, me, walking, w)
         if did == FINISHED:
             return DONE
         if did != CHANGED or waiting > 0 or state[me, PHASE] == BEGIN:
             # a location, a wait or an insertion ends
-            ended = cycles()
             column = WAIT_CYCLES if did == WAITING else (LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES)
-            state[me, column] += ended - begun
-            begun = ended
+            begun = spend(state, me, column, begun)
         if did == WAITING:
             state[me, WAITS] += waiting == 0
             wait_a_little(waiting)

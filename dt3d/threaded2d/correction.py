@@ -7,11 +7,19 @@ not needed any more.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
+
 import numba
+import numpy as np
 
 from ..predicates.borrowed import borrowed
 from .cavity import in_conflict
+from .prefetch import prefetch, prefetch_around
 from .store import CHILD, INFINITE, NEIGHBOR
+from .threads import together
+
+AHEAD = 8  # leaves between asking for a leaf's surroundings and for what lies beyond them
 
 
 @numba.njit(cache=True)
@@ -49,23 +57,62 @@ def _flip(nodes, t, k):
 
 
 @numba.njit(nogil=True, cache=True)
-def correct(points, nodes, used, w):
-    """Flip until no edge is illegal; how many flips."""
+def find_illegal(points, nodes, leaves, begin, end, found, w):
+    """Enter the illegal edges of leaves[begin : end], as 4 t + k, into ``found``; how many there are."""
+    points, nodes, leaves, w = borrowed(points), borrowed(nodes), borrowed(leaves), borrowed(w)
+    count = 0
+    for i in range(begin, end):
+        prefetch_around(points, nodes, leaves[min(i + 2 * AHEAD, end - 1)])
+        ahead = leaves[min(i + AHEAD, end - 1)]
+        for k in range(3):
+            edge = nodes[ahead, NEIGHBOR + k]
+            prefetch(points, nodes[edge >> 2, edge & 3])
+        t = leaves[i]
+        for k in range(3):
+            # an edge is illegal from both sides or from none
+            if nodes[t, NEIGHBOR + k] >> 2 < t and _illegal(points, nodes, t, k, w):
+                found[count] = 4 * t + k
+                count += 1
+    return count
+
+
+@numba.njit(nogil=True, cache=True)
+def flip_illegal(points, nodes, edges, w):
+    """Flip ``edges``, and those that get illegal thereby, until no edge is illegal; how many flips."""
     points, nodes, w = borrowed(points), borrowed(nodes), borrowed(w)
-    flips, changed = 0, True
-    while changed:
-        changed = False
-        for t in range(used):
-            if nodes[t, CHILD] >= 0:
-                continue
-            k = 0
-            while k < 3:
-                # an edge is illegal from both sides or from none
-                if nodes[t, NEIGHBOR + k] >> 2 < t and _illegal(points, nodes, t, k, w):
-                    _flip(nodes, t, k)
-                    flips += 1
-                    changed = True
-                    k = 0
-                else:
-                    k += 1
+    top, flips = len(edges), 0
+    stack = np.empty(2 * top + 4, np.int64)
+    stack[:top] = edges
+    while top > 0:
+        top -= 1
+        t, k = stack[top] >> 2, stack[top] & 3
+        if not _illegal(points, nodes, t, k, w):
+            continue
+        u = nodes[t, NEIGHBOR + k] >> 2
+        _flip(nodes, t, k)
+        flips += 1
+        if top + 4 > len(stack):
+            longer = np.empty(2 * len(stack), np.int64)
+            longer[:top] = stack[:top]
+            stack = longer
+        # the edges around the two triangles; the one between them is legal now
+        stack[top], stack[top + 1], stack[top + 2], stack[top + 3] = 4 * t, 4 * t + 2, 4 * u, 4 * u + 1
+        top += 4
     return flips
+
+
+def correct(points: np.ndarray, nodes: np.ndarray, used: int, works: Sequence[np.ndarray]) -> int:
+    """Flip edges until none is illegal; how many flips.
+
+    Illegal edges are looked for by as many threads as there are work arrays of the predicates.
+    """
+    leaves = np.flatnonzero(nodes[:used, CHILD] < 0)
+    bounds = [len(leaves) * k // len(works) for k in range(len(works) + 1)]
+    found = [np.empty(3 * (end - begin), np.int64) for begin, end in pairwise(bounds)]
+
+    def task(k: int) -> int:
+        return find_illegal(points, nodes, leaves, bounds[k], bounds[k + 1], found[k], works[k])
+
+    counts = together([lambda k=k: task(k) for k in range(len(works))], lambda: None)
+    edges = np.concatenate([f[:count] for f, count in zip(found, counts, strict=True)])
+    return flip_illegal(points, nodes, edges, works[0])

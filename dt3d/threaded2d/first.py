@@ -19,8 +19,25 @@ def _first(points, order, w):
     return -1, 0
 
 
-def first_triangle(points: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """The first two of the order and the first that is not on a line with them; positive, int64 (3,).
+def first_triangle(
+    points: np.ndarray, order: np.ndarray, bounds: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The first two of the order and the first that is not on a line with them; and what is left to insert.
+
+    Parameters
+    ----------
+    points : float64 (n, 2)
+    order : int64 (n,)
+        All sites, part by part.
+    bounds : int64 (parts + 1,)
+        Where the parts begin, and where the last one ends.
+
+    Returns
+    -------
+    vertices : int64 (3,)
+        Of a positive triangle.
+    order : int64 (n - 3,)
+    bounds : int64 (parts + 1,)
 
     Raises
     ------
@@ -33,4 +50,6 @@ def first_triangle(points: np.ndarray, order: np.ndarray) -> np.ndarray:
     if not sign:
         raise no_area(1, len(order))
     a, b = order[:2] if sign > 0 else order[1::-1]
-    return np.array([a, b, order[i]], np.int64)
+    taken = np.array([0, 1, i])
+    left = np.concatenate([order[2:i], order[i + 1 :]])
+    return np.array([a, b, order[i]], np.int64), left, bounds - np.searchsorted(taken, bounds)

@@ -11,16 +11,14 @@ from __future__ import annotations
 import numba
 
 from ..predicates.borrowed import borrowed
-from .atomics import cycles, load, store_release, wait_a_little
-from .batch import CHANGED, FINISHED, LOCATED, WAITING
+from .atomics import cycles, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
 from .dag import descend, locate
 from .flips import insert
-from .sequential import DONE, FULL, STOPPED
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, next_site, spend, verdict
 from .store import (
     ACCESSES,
     CHANGE_CYCLES,
-    END,
     HELD,
     HINT,
     INSERTED,
@@ -32,9 +30,6 @@ from .store import (
     PHASE,
     RETRIES,
     SITE,
-    SOFT_LIMIT,
-    STOP,
-    USED,
     VISITED,
     WAIT_CYCLES,
     stumble,
@@ -58,14 +53,12 @@ def _unlock_star(nodes, f):
 
 
 @numba.njit(cache=True, forceinline=True)
-def step(points, nodes, shared, state, order, by, held, cavity, rim, me, w):
+def step(points, nodes, shared, state, order, held, cavity, rim, me, w):
     """One step of thread ``me``: locate a site, get exclusive access, or subdivide and legalise."""
     if state[me, PHASE] == BEGIN:
-        while state[me, NEXT] < state[me, END] and by[order[state[me, NEXT]]] >= 0:
-            state[me, NEXT] += 1  # a vertex of the first triangle
-        if state[me, NEXT] == state[me, END]:
+        q = next_site(state, order, me)
+        if q < 0:
             return FINISHED
-        q = order[state[me, NEXT]]
         t, visited = locate(points, nodes, q, w)
         state[me, SITE], state[me, NODE], state[me, PHASE] = q, t, CLAIM
         state[me, VISITED] += visited
@@ -86,7 +79,6 @@ def step(points, nodes, shared, state, order, by, held, cavity, rim, me, w):
     f = insert(points, nodes, shared, state, me, state[me, NODE], q, me + 1, w)
     _unlock_star(nodes, f)
     give_back(nodes, held, state[me, HELD])
-    by[q] = me
     state[me, HINT] = f
     state[me, INSERTED] += 1
     state[me, NEXT] += 1
@@ -95,29 +87,28 @@ def step(points, nodes, shared, state, order, by, held, cavity, rim, me, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, by, me, scratch, w):
+def run(points, nodes, shared, state, order, me, scratch, w):
     """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    order, w = borrowed(order), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
     waiting = 0
     begun = cycles()
     while True:
         # whoever holds triangles goes on until it has given them back
-        if state[me, PHASE] != CHANGE and load(shared, (STOP, 0)) != 0:
-            return STOPPED
-        if state[me, PHASE] == BEGIN and load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
-            return FULL
-        did = step(points, nodes, shared, state, order, by, held, cavity, rim, me, w)
+        phase = state[me, PHASE]
+        reason = verdict(shared, phase != CHANGE, phase == BEGIN)
+        if reason != GO_ON:
+            return reason
+        did = step(points, nodes, shared, state, order, held, cavity, rim, me, w)
         if did == FINISHED:
             return DONE
-        ended = cycles()
+        column = WAIT_CYCLES if did == WAITING else (LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES)
+        begun = spend(state, me, column, begun)
         if did == WAITING:
-            state[me, WAIT_CYCLES] += ended - begun
             wait_a_little(waiting)
             waiting += 1
+            begun = spend(state, me, WAIT_CYCLES, begun)
         else:
-            state[me, LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES] += ended - begun
             waiting = 0
         stumble(shared, state, me)
-        begun = ended

@@ -7,20 +7,17 @@ import numba
 
 from ..predicates.borrowed import borrowed
 from .atomics import compare_and_swap, cycles, give_way, load, release
-from .dag import descend, locate
+from .dag import descend
 from .flips import insert
-from .sequential import DONE, FULL, STOPPED
+from .steps import DONE, GO_ON, STOPPED, find, next_site, spend, verdict
 from .store import (
     CHANGE_CYCLES,
     CRITICAL,
-    END,
     HINT,
     INSERTED,
     LOCATION_CYCLES,
     NEXT,
-    SOFT_LIMIT,
     STOP,
-    USED,
     VISITED,
     WAIT_CYCLES,
     WAITS,
@@ -30,25 +27,20 @@ from .walk import walk_history
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, by, me, walking, w):
+def run(points, nodes, shared, state, order, me, walking, w):
     """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, w = borrowed(order), borrowed(by), borrowed(w)
-    while state[me, NEXT] < state[me, END]:
-        if load(shared, (STOP, 0)) != 0:
-            return STOPPED
-        if load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
-            return FULL
-        q = order[state[me, NEXT]]
-        if by[q] >= 0:  # a vertex of the first triangle
-            state[me, NEXT] += 1
-            continue
-        begun = cycles()
-        if walking:
-            t, visited = walk_history(points, nodes, state[me, HINT], q, w)
-        else:
-            t, visited = locate(points, nodes, q, w)
-        located = cycles()
+    order, w = borrowed(order), borrowed(w)
+    begun = cycles()
+    while True:
+        reason = verdict(shared, True, True)
+        if reason != GO_ON:
+            return reason
+        q = next_site(state, order, me)
+        if q < 0:
+            return DONE
+        t, visited = find(points, nodes, state, me, q, walking, w)
+        begun = spend(state, me, LOCATION_CYCLES, begun)
         stumble(shared, state, me)
         if not compare_and_swap(shared, (CRITICAL, 0), 0, me + 1):
             state[me, WAITS] += 1
@@ -56,7 +48,7 @@ def run(points, nodes, shared, state, order, by, me, walking, w):
                 if load(shared, (STOP, 0)) != 0:
                     return STOPPED
                 give_way()
-        entered = cycles()
+        begun = spend(state, me, WAIT_CYCLES, begun)
         # what was a leaf before may have children now
         if walking:
             t, more = walk_history(points, nodes, t, q, w)
@@ -64,12 +56,8 @@ def run(points, nodes, shared, state, order, by, me, walking, w):
             t, more = descend(points, nodes, t, q, w)
         state[me, HINT] = insert(points, nodes, shared, state, me, t, q, 0, w)
         release(shared, (CRITICAL, 0))
-        by[q] = me
         stumble(shared, state, me)
-        state[me, LOCATION_CYCLES] += located - begun
-        state[me, WAIT_CYCLES] += entered - located
-        state[me, CHANGE_CYCLES] += cycles() - entered
+        begun = spend(state, me, CHANGE_CYCLES, begun)
         state[me, VISITED] += visited + more
         state[me, INSERTED] += 1
         state[me, NEXT] += 1
-    return DONE

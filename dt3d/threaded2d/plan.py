@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from ..predicates import work_array
-from . import batch, circumcircle, optimistic, pessimistic, sequential, star
+from . import batch, circumcircle, optimistic, pessimistic, sequential, star, steps
 from .compaction import compact
 from .correction import correct
 from .first import first_triangle
+from .lanes import empty_lanes
 from .order import along_curve
+from .pool import empty_pool
 from .queue import empty_queue
 from .statistics import Statistics
 from .store import (
@@ -109,7 +111,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
         options.seed,
         apart=options.method != "batch",
     )
-    first = first_triangle(rows, order)
+    first, order, bounds = first_triangle(rows, order, bounds)
     seconds["order"] = time.perf_counter() - begun
 
     begun = time.perf_counter()
@@ -119,10 +121,10 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     store.state[: parts_with_sites(options), END] = bounds[1:]
     store.shared[STUMBLE, 0] = options.stumble
     run = _Run(options, store, order)
-    ticks, clock = sequential.now(), time.perf_counter()
+    ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
     elapsed = time.perf_counter() - clock
-    per_cycle = elapsed / max(1, sequential.now() - ticks)
+    per_cycle = elapsed / max(1, steps.now() - ticks)
     seconds["insertion"] = time.perf_counter() - begun
 
     begun = time.perf_counter()
@@ -133,7 +135,9 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     used = capacity if capacity is not None else int(store.shared[USED, 0])
     triangles, neighbors, maker = compact(store.nodes, used, site)
     inserted_by = np.full(len(points), -1, np.int16)
-    inserted_by[site] = store.by
+    inserted_by[site[first]] = 0
+    for k in range(len(bounds) - 1):
+        inserted_by[site[order[bounds[k] : bounds[k + 1]]]] = k
     seconds["extraction"] = time.perf_counter() - begun
     stats = _statistics(run, corrected, seconds, per_cycle)
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
@@ -151,7 +155,10 @@ class _Run:
         self.options, self.store, self.order = options, store, order
         self.cpu_seconds = [0.0] * options.threads
         self.cells = empty_queue(options.queue_length)
-        self.pool = circumcircle.empty_pool(options.threads)
+        self.lanes = empty_lanes(options.threads)
+        self.hands = batch.empty_hands(options.threads)
+        self.pool = empty_pool(options.threads)
+        self.alone = min(circumcircle.HEAD_START * options.threads, len(order) // (8 * options.threads))
         self.work = [work_array(store.points) for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
@@ -167,7 +174,7 @@ class _Run:
         """Run all threads until all sites are inserted."""
         while True:
             results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
-            if sequential.FULL not in results:
+            if steps.FULL not in results:
                 return
             self.store.grow()
 
@@ -186,7 +193,7 @@ class _Run:
 
     def _task(self, k: int) -> Callable[[], Any]:
         o, s = self.options, self.store
-        common = (s.points, s.nodes, s.shared, s.state, self.order, s.by, k)
+        common = (s.points, s.nodes, s.shared, s.state, self.order, k)
         walking = o.location == "walk"
         if o.in_place:
             lock = k + 1 if o.threads > 1 else 0
@@ -198,17 +205,18 @@ class _Run:
         if o.method == "optimistic":
             return lambda: optimistic.run(*common, self.scratch[k], self.work[k])
         if o.method == "circumcircle":
-            return lambda: circumcircle.run(*common, self.pool, walking, self.work[k])
+            return lambda: circumcircle.run(*common, self.pool, self.alone, walking, self.work[k])
         if k < o.threads - 1:
-            return lambda: batch.run_searching(*common, self.cells, walking, o.helping, self.work[k])
-        return lambda: batch.run_specialised(*common[:4], k, self.cells, walking, self.work[k])
+            mine = (self.cells, self.lanes[k], self.hands[k])
+            return lambda: batch.run_searching(*common, *mine, walking, o.helping, self.work[k])
+        return lambda: batch.run_specialised(*common[:4], k, self.cells, self.hands[k], walking, self.work[k])
 
     def correct(self) -> int:
         """Make up for swaps that were given up, if there can be any; how many were made."""
         s = self.store
-        if not s.state[:, [EXCEPTIONS, GIVEN_UP]].any():
+        if not s.state[:, GIVEN_UP].any():
             return 0
-        return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work[0])
+        return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work)
 
 
 def _statistics(run: _Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:

@@ -1,8 +1,8 @@
 """A bounded queue of sites and where they were located, for any number of threads at both ends.
 
 D. Vyukov's bounded queue: every cell has a number that says whose turn it is, so that a thread needs one
-compare-and-swap, and one that loses the processor in between holds nobody up but at its own cell. The paper
-uses a short critical section instead.
+compare-and-swap for all elements that it puts or takes, and one that loses the processor in between holds
+nobody up but at its own cells. The paper uses a short critical section instead.
 """
 
 from __future__ import annotations
@@ -13,49 +13,59 @@ import numpy as np
 from .atomics import compare_and_swap, load, load_acquire, store_release
 from .store import HEAD, TAIL
 
-# columns of `cells`
-TURN, ITEM_SITE, ITEM_NODE = range(3)
+# columns of `cells`, and the first two of elements in hand
+ITEM_SITE, ITEM_NODE, TURN = range(3)
 
 
 def empty_queue(length: int) -> np.ndarray:
-    """Cells of a queue, int64 (length, 3); the ends are words of the store's `shared`, 0 at the beginning."""
-    cells = np.zeros((length, 3), np.int64)
+    """Cells of a queue, int64 (length, 4); the ends are words of the store's `shared`, 0 at the beginning."""
+    cells = np.zeros((length, 4), np.int64)
     cells[:, TURN] = np.arange(length)
     return cells
 
 
 @numba.njit(cache=True, forceinline=True)
-def put(cells, shared, site, node):
-    """Append an element; False where the queue is full."""
-    at = load(shared, (TAIL, 0))
+def _reserve(cells, shared, end, ahead, wanted):
+    """Up to ``wanted`` cells at one end of the queue, HEAD or TAIL: the place of the first, and how many.
+
+    A cell is ready when its number is ``ahead`` of its place.
+    """
+    at = load(shared, (end, 0))
     while True:
-        cell = at % len(cells)
-        turn = load_acquire(cells, (cell, TURN))
-        if turn == at:
-            if compare_and_swap(shared, (TAIL, 0), at, at + 1):
-                cells[cell, ITEM_SITE], cells[cell, ITEM_NODE] = site, node
-                store_release(cells, (cell, TURN), at + 1)
-                return True
-        elif turn < at:
-            return False
-        at = load(shared, (TAIL, 0))
+        count = 0
+        while count < wanted and load_acquire(cells, ((at + count) % len(cells), TURN)) == at + count + ahead:
+            count += 1
+        if count > 0 and compare_and_swap(shared, (end, 0), at, at + count):
+            return at, count
+        now = load(shared, (end, 0))
+        if count == 0 and now == at:
+            return at, 0
+        at = now
 
 
 @numba.njit(cache=True, forceinline=True)
-def get(cells, shared):
-    """The first element: whether there is one, its site and node."""
-    at = load(shared, (HEAD, 0))
-    while True:
-        cell = at % len(cells)
-        turn = load_acquire(cells, (cell, TURN))
-        if turn == at + 1:
-            if compare_and_swap(shared, (HEAD, 0), at, at + 1):
-                site, node = cells[cell, ITEM_SITE], cells[cell, ITEM_NODE]
-                store_release(cells, (cell, TURN), at + len(cells))
-                return True, site, node
-        elif turn <= at:
-            return False, np.int64(-1), np.int64(-1)
-        at = load(shared, (HEAD, 0))
+def put(cells, shared, items, first, count):
+    """Append items[first : first + count], rows (site, node), or as many of them as there is room for; how
+    many."""
+    at, room = _reserve(cells, shared, TAIL, 0, count)
+    for i in range(room):
+        cell = (at + i) % len(cells)
+        cells[cell, ITEM_SITE] = items[first + i, ITEM_SITE]
+        cells[cell, ITEM_NODE] = items[first + i, ITEM_NODE]
+        store_release(cells, (cell, TURN), at + i + 1)
+    return room
+
+
+@numba.njit(cache=True, forceinline=True)
+def get(cells, shared, items, first, count):
+    """Take up to ``count`` elements, into items[first], items[first + 1], ...; how many there were."""
+    at, found = _reserve(cells, shared, HEAD, 1, count)
+    for i in range(found):
+        cell = (at + i) % len(cells)
+        items[first + i, ITEM_SITE] = cells[cell, ITEM_SITE]
+        items[first + i, ITEM_NODE] = cells[cell, ITEM_NODE]
+        store_release(cells, (cell, TURN), at + i + len(cells))
+    return found
 
 
 @numba.njit(cache=True, forceinline=True)

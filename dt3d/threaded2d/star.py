@@ -11,7 +11,7 @@ import numba
 from ..predicates.borrowed import borrowed
 from .atomics import load, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
-from .sequential import DONE, STOPPED
+from .steps import DONE, STOPPED
 from .store import (
     CHILD,
     END,
@@ -59,14 +59,14 @@ def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
+def run(points, nodes, shared, state, order, me, lock, scratch, w):
     """Insert order[NEXT] to order[END - 1] of this thread, each from the triangle where the last one was.
 
     With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive
     access to its conflicts and the triangles around them, and begins again where it does not get it.
     """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    order, w = borrowed(order), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
     hint, end = state[me, HINT], state[me, END]
     at = state[me, NEXT]
@@ -77,9 +77,6 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
             result = STOPPED
             break
         q = order[at]
-        if by[q] >= 0:  # a vertex of the first triangle
-            at += 1
-            continue
         t, steps = walk(points, nodes, hint, q, w)
         visited += steps
         stumble(shared, state, me)
@@ -100,7 +97,6 @@ def run(points, nodes, shared, state, order, by, me, lock, scratch, w):
             give_back(nodes, held, count)
             store_release(nodes, (fresh, LOCK), 0)
             store_release(nodes, (fresh + 1, LOCK), 0)
-        by[q] = me
         flips += size - 1
         inserted += 1
         at += 1

@@ -44,10 +44,10 @@ NODES_PER_SITE = 12
 # columns of `state`, a row for each thread. First what goes on, then what is counted.
 (
     NEXT, END, BLOCK_AT, BLOCK_END, HINT, RANDOM,
-    PHASE, SITE, NODE, LAST, BLOCKER, BLOCKED_SINCE, OTHER_SITE, OTHER_NODE,
+    PHASE, SITE, NODE, LAST, BLOCKER, BLOCKED_SINCE, AT, IN_HAND, HELPED,
     INSERTED, VISITED, FLIPS, TESTS, ACCESSES, WAITS, GIVEN_UP, EXCEPTIONS, RETRIES,
     LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL, HELD,
-) = range(28)  # fmt: skip
+) = range(29)  # fmt: skip
 STATE_COLUMNS = 32
 
 
@@ -106,8 +106,6 @@ class Store:
         Words that all write to.
     capacity : int, optional
         Of `nodes`, where it is known; with a history it is not, and grows.
-    by : int16 (n,)
-        The thread that inserted each site; -1 if none has yet.
     """
 
     def __init__(
@@ -125,8 +123,6 @@ class Store:
         self.shared = padded(SHARED_ROWS)
         self.shared[USED, 0] = ROOTS
         self.shared[SOFT_LIMIT, 0] = soft
-        self.by = np.full(len(points), -1, np.int16)
-        self.by[first] = 0
         self.growths = 0
 
     def grow(self) -> None:

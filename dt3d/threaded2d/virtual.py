@@ -20,28 +20,16 @@ import numpy as np
 
 from ..predicates import work_array
 from ..predicates.borrowed import borrowed
-from . import batch, circumcircle, optimistic, sequential
-from .batch import CHANGED, FINISHED, WAITING
+from . import batch, circumcircle, optimistic
+from .costs import Costs, prepared
 from .dag import locate
-from .first import first_triangle
-from .order import along_curve
-from .plan import Options, parts_with_sites, triangulate
+from .flips import insert
+from .lanes import empty_lanes
+from .plan import Options
+from .pool import empty_pool
 from .queue import empty_queue
-from .store import (
-    END,
-    EXCEPTIONS,
-    FLIPS,
-    GIVEN_UP,
-    HINT,
-    INSERTED,
-    NEXT,
-    RETRIES,
-    TESTS,
-    VISITED,
-    WAITS,
-    Store,
-)
-from .subdivision import insertion_order
+from .steps import CHANGED, FINISHED, WAITING, next_site
+from .store import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
 _METHODS = {
@@ -52,39 +40,6 @@ _METHODS = {
     "pessimistic": PESSIMISTIC,
 }
 MOST_ELEMENTS = 64
-
-# Not measured, but of the usual size on today's processors: seconds.
-QUEUE = 50e-9  # an element put or taken: a cache line from another core, a compare-and-swap
-LOCKS = 150e-9  # some ten locks taken and given back
-YIELD = 500e-9  # a look whether the wait is over, and giving way
-SLICE = 1e-3  # how long a thread keeps its element when others want it
-
-
-@dataclass(frozen=True)
-class Costs:
-    """Seconds of the operations.
-
-    Attributes
-    ----------
-    visit : float
-        A node on the way of a location.
-    node : float
-        A node made by subdivision (three) or a flip (two), with the tests that led to it.
-    test : float
-        A circum-circle test of the pool.
-    queue, locks, wait : float
-        An element put or taken; the locks of an insertion; a look whether a wait is over.
-    slice : float
-        How long a thread keeps its element when others want it.
-    """
-
-    visit: float
-    node: float
-    test: float
-    queue: float = QUEUE
-    locks: float = LOCKS
-    wait: float = YIELD
-    slice: float = SLICE
 
 
 @dataclass(frozen=True)
@@ -101,35 +56,25 @@ class Simulation:
     triangles: int
 
 
-def measure(points: np.ndarray, order: str = "random", repeats: int = 3) -> Costs:
-    """The costs of these points, by the median of sequential runs."""
-    options = Options("sequential", 1, order, "dag", 2, "random", 0)
-    found = []
-    for _ in range(repeats):
-        stats = triangulate(points, options).stats
-        visit = stats.location_seconds[0] / max(1, stats.visited)
-        node = stats.change_seconds[0] / (3 * stats.inserted[0] + 2 * stats.flips)
-        found.append((visit, node))
-    visit, node = np.median(np.array(found), axis=0)
-    # an insertion with f flips makes 3 + 2 f nodes and 3 + 2 f tests; about half of its time is theirs
-    return Costs(float(visit), float(node), float(node) / 2)
-
-
 @numba.njit(cache=True)
 def _counted(state, k):
     return state[k, VISITED], state[k, FLIPS], state[k, INSERTED], state[k, TESTS]
 
 
 @numba.njit(cache=True, forceinline=True)
-def _step(points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w):
+def _step(
+    points, nodes, shared, state, order, pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w
+):
     """A step of thread k."""
     if method == BATCH:
         if k == len(state) - 1:
-            return batch.specialised_step(points, nodes, shared, state, cells, k, False, w)
-        return batch.search_step(points, nodes, shared, state, order, by, cells, k, False, helping, w)
+            return batch.specialised_step(points, nodes, shared, state, cells, hands[k], k, False, w)
+        return batch.search_step(
+            points, nodes, shared, state, order, cells, lanes[k], hands[k], k, False, helping, w
+        )
     if method == CIRCUMCIRCLE:
-        return circumcircle.step(points, nodes, shared, state, order, by, pool, k, False, w)
-    return optimistic.step(points, nodes, shared, state, order, by, held[k], cavity[k], rim[k], k, w)
+        return circumcircle.step(points, nodes, shared, state, order, pool, k, False, w)
+    return optimistic.step(points, nodes, shared, state, order, held[k], cavity[k], rim[k], k, w)
 
 
 @numba.njit(nogil=True, cache=True)
@@ -139,9 +84,10 @@ def _simulate(
     shared,
     state,
     order,
-    by,
     pool,
     cells,
+    lanes,
+    hands,
     held,
     cavity,
     rim,
@@ -153,7 +99,8 @@ def _simulate(
 ):
     """Seconds of the last element to end, and of all elements that were not spent waiting."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, pool, cells, w = borrowed(order), borrowed(by), borrowed(pool), borrowed(cells), borrowed(w)
+    order, pool, cells, w = borrowed(order), borrowed(pool), borrowed(cells), borrowed(w)
+    lanes, hands = borrowed(lanes), borrowed(hands)
     held, cavity, rim = borrowed(held), borrowed(cavity), borrowed(rim)
     visit, node, test, queue, locks, wait, time_slice = costs
     threads = len(state)
@@ -184,8 +131,9 @@ def _simulate(
         v, f, i, c = _counted(state, k)
         in_hand = state[k, INSERTED]
         did = _step(
-            points, nodes, shared, state, order, by, pool, cells, held, cavity, rim, method, helping, k, w
-        )
+            points, nodes, shared, state, order,
+            pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
+        )  # fmt: skip
         v2, f2, i2, c2 = _counted(state, k)
         if did == FINISHED:
             alive -= 1
@@ -214,11 +162,11 @@ def _simulate(
 
 
 @numba.njit(nogil=True, cache=True)
-def _simulate_critical(points, nodes, shared, state, order, by, elements, costs, w):
+def _simulate_critical(points, nodes, shared, state, order, elements, costs, w):
     """The pessimistic method, and with one element the sequential one: as long as an element is in the
     critical section, others that come to it wait; one thread on each element."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, by, w = borrowed(order), borrowed(by), borrowed(w)
+    order, w = borrowed(order), borrowed(w)
     visit, node, test, queue, locks, wait, time_slice = costs
     clock = np.zeros(elements)
     free, busy = 0.0, 0.0
@@ -230,19 +178,16 @@ def _simulate_critical(points, nodes, shared, state, order, by, elements, costs,
         for i in range(elements):
             if not ended[i] and (e < 0 or clock[i] < clock[e]):
                 e = i
-        while state[e, NEXT] < state[e, END] and by[order[state[e, NEXT]]] >= 0:
-            state[e, NEXT] += 1
-        if state[e, NEXT] == state[e, END]:
+        q = next_site(state, order, e)
+        if q < 0:
             ended[e] = True
             left -= 1
             last = max(last, clock[e])
             continue
-        q = order[state[e, NEXT]]
         t, visited = locate(points, nodes, q, w)
         before = state[e, FLIPS]
-        state[e, HINT] = sequential.insert(points, nodes, shared, state, e, t, q, 0, w)
+        insert(points, nodes, shared, state, e, t, q, 0, w)
         change = node * (3 + 2 * (state[e, FLIPS] - before))
-        by[q] = e
         state[e, INSERTED] += 1
         state[e, NEXT] += 1
         entered = clock[e] + visit * visited
@@ -281,34 +226,31 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
     method = _METHODS[options.method]
     if method in (SEQUENTIAL, PESSIMISTIC):
         options = replace(options, threads=elements if method == PESSIMISTIC else 1)
-    site, _ = along_curve(points)
-    if options.order == "random":
-        site = np.sort(site)
-    rows = np.ascontiguousarray(points[site])
-    parts = parts_with_sites(options)
-    order, bounds = insertion_order(rows, options.order, options.subdivision, parts, options.seed)
-    # one thread at a time runs here, so that nothing has to grow in between
-    store = Store(rows, first_triangle(rows, order), options.threads, 24 * len(rows) + 4096 * options.threads)
-    store.state[:parts, NEXT], store.state[:parts, END] = bounds[:-1], bounds[1:]
-    w = work_array(rows)
+    store, order = prepared(points, options)
+    n = len(store.points)
+    w = work_array(store.points)
     price = (costs.visit, costs.node, costs.test, costs.queue, costs.locks, costs.wait, costs.slice)
-    common = (store.points, store.nodes, store.shared, store.state, order, store.by)
+    common = (store.points, store.nodes, store.shared, store.state, order)
     if method in (SEQUENTIAL, PESSIMISTIC):
         seconds, busy = _simulate_critical(*common, options.threads, price, w)
         elements = options.threads
     else:
         locking = method == OPTIMISTIC
-        shape = (options.threads if locking else 1, 4 * len(rows) + 64 if locking else 1)
+        shape = (options.threads if locking else 1, 4 * n + 64 if locking else 1)
         scratch = (
             np.empty(shape, np.int32),
             np.empty(shape, np.int32),
             np.empty((shape[0], 3 * shape[1]), np.int32),
         )
-        pool = circumcircle.empty_pool(options.threads)
-        cells = empty_queue(max(2, options.queue_length))
-        seconds, busy = _simulate(*common, pool, cells, *scratch, method, options.helping, elements, price, w)
+        tools = (
+            empty_pool(options.threads),
+            empty_queue(max(2, options.queue_length)),
+            empty_lanes(options.threads),
+            batch.empty_hands(options.threads),
+        )
+        seconds, busy = _simulate(*common, *tools, *scratch, method, options.helping, elements, price, w)
     s = store.state.sum(axis=0)
-    leaves = int((store.nodes[:, 6] < 0).sum())
+    leaves = int((store.nodes[:, CHILD] < 0).sum())
     return Simulation(
         seconds=float(seconds),
         busy=float(busy / (seconds * elements)),

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from dt3d.threaded2d.costs import Costs
 from dt3d.threaded2d.plan import Options
-from dt3d.threaded2d.virtual import Costs, simulate
+from dt3d.threaded2d.virtual import simulate
 
 from .families import EVERY_SET, uniform
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...threaded2d.costs import measure
 from ...threaded2d.delaunay import searching_threads
 from ...threaded2d.plan import Options
-from ...threaded2d.virtual import measure, simulate
+from ...threaded2d.virtual import simulate
 from . import sets
 from .report import Row, publish
 

@@ -1,0 +1,71 @@
+"""Location of several sites at a time in the history, node by node in turn.
+
+On its way to a leaf a location waits for memory at nearly every node, in vain: the next node is not known
+before. Several of them wait together. Only searching threads can do that, which locate and do not change.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from .atomics import load_acquire
+from .dag import child_of
+from .geometry import root_of
+from .prefetch import prefetch
+from .store import CHILD
+
+LANES = 8
+
+# columns of `lanes`
+LANE_SITE, LANE_NODE, LANE_CHILD = range(3)
+
+EMPTY = -1
+
+
+def empty_lanes(threads: int) -> np.ndarray:
+    """The sites on their way, of each thread: int64 (threads, LANES, 4)."""
+    return np.full((threads, LANES, 4), EMPTY, np.int64)
+
+
+@numba.njit(cache=True, forceinline=True)
+def _look_ahead(nodes, lanes, i, t):
+    """Let lane i go on from node t; whether t is a leaf."""
+    child = load_acquire(nodes, (t, CHILD))
+    lanes[i, LANE_NODE], lanes[i, LANE_CHILD] = t, child
+    if child < 0:
+        return True
+    # three children may lie on two lines
+    prefetch(nodes, child >> 1)
+    prefetch(nodes, (child >> 1) + 2)
+    return False
+
+
+@numba.njit(cache=True, forceinline=True)
+def start(points, nodes, lanes, i, q, w):
+    """Let site q begin in lane i, at its root."""
+    lanes[i, LANE_SITE] = q
+    _look_ahead(nodes, lanes, i, root_of(points, nodes, q, w))
+
+
+@numba.njit(cache=True, forceinline=True)
+def advance(points, nodes, lanes, w):
+    """Go on in all lanes until a site is located: its lane, or `EMPTY` where all are empty; and how many
+    nodes were visited."""
+    visited = 0
+    while True:
+        busy = False
+        for i in range(LANES):
+            q = lanes[i, LANE_SITE]
+            if q == EMPTY:
+                continue
+            busy = True
+            child = lanes[i, LANE_CHILD]
+            if child < 0:
+                return i, visited
+            t = child_of(points, nodes, lanes[i, LANE_NODE], child, q, w)
+            visited += 1
+            if _look_ahead(nodes, lanes, i, t):
+                return i, visited
+        if not busy:
+            return EMPTY, visited

@@ -1,0 +1,80 @@
+"""What all methods' threads have in common: going in steps, accounting for time, stopping.
+
+A step locates a site, changes the structure, or finds that it has to wait, and returns which. Real threads
+loop over steps, and so does the scheduler of virtual time.
+"""
+
+from __future__ import annotations
+
+import numba
+
+from .atomics import cycles, load, nap
+from .dag import locate
+from .store import END, HINT, NEXT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
+from .walk import walk_history
+
+# what a step returns
+LOCATED, CHANGED, WAITING, FINISHED = range(4)
+
+# what a thread's run returns; no run returns `GO_ON`
+DONE, STOPPED, FULL, GO_ON = range(4)
+
+
+@numba.njit(cache=True)
+def now():
+    """The cycle counter."""
+    return cycles()
+
+
+@numba.njit(cache=True, forceinline=True)
+def verdict(shared, may_stop, may_fill):
+    """`STOPPED` when all threads have to stop, `FULL` when the structure has to grow first, or `GO_ON`.
+
+    A thread that holds what others wait for says with ``may_stop`` and ``may_fill`` that it cannot return
+    yet.
+    """
+    if may_stop and load(shared, (STOP, 0)) != 0:
+        return STOPPED
+    if may_fill and load(shared, (USED, 0)) > shared[SOFT_LIMIT, 0]:
+        return FULL
+    return GO_ON
+
+
+@numba.njit(cache=True, forceinline=True)
+def next_site(state, order, me):
+    """The next site of thread ``me``; -1 where it has none left."""
+    return order[state[me, NEXT]] if state[me, NEXT] < state[me, END] else -1
+
+
+@numba.njit(cache=True, forceinline=True)
+def find(points, nodes, state, me, q, walking, w):
+    """The leaf that contains q, from the roots or by walking from the last one, and how many were visited."""
+    if walking:
+        return walk_history(points, nodes, state[me, HINT], q, w)
+    return locate(points, nodes, q, w)
+
+
+@numba.njit(cache=True, forceinline=True)
+def spend(state, me, column, begun):
+    """Enter the cycles since ``begun`` into a column; now."""
+    ended = cycles()
+    state[me, column] += ended - begun
+    return ended
+
+
+@numba.njit(cache=True, forceinline=True)
+def pause(state, me, column, did, waiting, begun):
+    """Account for a step of a thread at the queue, and sleep a little where it waits.
+
+    A nap does not empty a long queue, nor fill it. Giving way would be worse with more threads than
+    processors: a scheduler may then let another one run for milliseconds.
+
+    Returns whether it waits, and when the present wait, or what is no wait, began.
+    """
+    waits = did == WAITING
+    if waits != waiting:
+        begun = spend(state, me, WAIT_CYCLES if waiting else column, begun)
+        state[me, WAITS] += waits
+    if waits:
+        nap()
+    return waits, begun

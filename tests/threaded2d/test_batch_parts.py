@@ -1,0 +1,120 @@
+"""The parts of the batch method by themselves: the queue, and location of several sites at a time."""
+
+import numba
+import numpy as np
+import pytest
+
+from dt3d.predicates import work_array
+from dt3d.threaded2d import dag, lanes, sequential
+from dt3d.threaded2d.atomics import padded
+from dt3d.threaded2d.costs import prepared
+from dt3d.threaded2d.plan import Options
+from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
+from dt3d.threaded2d.steps import DONE
+from dt3d.threaded2d.store import END, NEXT, SHARED_ROWS
+from dt3d.threaded2d.threads import together
+
+from .families import EVERY_SET
+
+
+@numba.njit
+def _put(cells, shared, items, first, count):
+    return put(cells, shared, items, first, count)
+
+
+@numba.njit
+def _get(cells, shared, items, first, count):
+    return get(cells, shared, items, first, count)
+
+
+@numba.njit
+def _fill(shared):
+    return fill_of(shared)
+
+
+def test_elements_leave_the_queue_in_the_order_in_which_they_came():
+    rng = np.random.default_rng(0)
+    cells, shared = empty_queue(5), padded(SHARED_ROWS)
+    items = np.column_stack([np.arange(300), 1000 + np.arange(300)])
+    came, went = 0, 0
+    out = np.empty((8, 2), np.int64)
+    while went < len(items):
+        wanted = int(rng.integers(1, 8))
+        count = _put(cells, shared, items, came, min(wanted, len(items) - came))
+        assert count == min(wanted, len(items) - came, 5 - (came - went))  # as many as there is room for
+        came += count
+        assert _fill(shared) == came - went
+        wanted = int(rng.integers(1, 8))
+        count = _get(cells, shared, out, 1, wanted)
+        assert count == min(wanted, came - went)
+        np.testing.assert_array_equal(out[1 : 1 + count], items[went : went + count])
+        went += count
+
+
+@numba.njit(nogil=True)
+def _produce(cells, shared, items):
+    at = 0
+    while at < len(items):
+        at += put(cells, shared, items, at, min(3, len(items) - at))
+
+
+@numba.njit(nogil=True)
+def _consume(cells, shared, items):
+    at = 0
+    while at < len(items):
+        at += get(cells, shared, items, at, min(4, len(items) - at))
+
+
+def test_threads_at_both_ends_lose_nothing():
+    n = 3000
+    cells, shared = empty_queue(16), padded(SHARED_ROWS)
+    came = [np.column_stack([np.arange(n) + n * k, np.full(n, k)]) for k in range(2)]
+    went = [np.empty((n, 2), np.int64) for _ in range(2)]
+    together(
+        [lambda k=k: _produce(cells, shared, came[k]) for k in range(2)]
+        + [lambda k=k: _consume(cells, shared, went[k]) for k in range(2)],
+        lambda: None,
+    )
+    everything = np.concatenate(went)
+    np.testing.assert_array_equal(everything[np.argsort(everything[:, ITEM_SITE])], np.concatenate(came))
+    for items in went:
+        for k in range(2):  # of one producer, in order
+            assert (np.diff(items[items[:, ITEM_NODE] == k, ITEM_SITE]) > 0).all()
+
+
+@numba.njit
+def _through_lanes(points, nodes, hands, sites, w):
+    """The leaves of the sites by way of the lanes."""
+    found = np.full(len(points), -1)
+    begun = 0
+    while True:
+        for i in range(len(hands)):
+            if hands[i, lanes.LANE_SITE] == lanes.EMPTY and begun < len(sites):
+                lanes.start(points, nodes, hands, i, sites[begun], w)
+                begun += 1
+        i, _ = lanes.advance(points, nodes, hands, w)
+        if i == lanes.EMPTY:
+            return found
+        found[hands[i, lanes.LANE_SITE]] = hands[i, lanes.LANE_NODE]
+        hands[i, lanes.LANE_SITE] = lanes.EMPTY
+
+
+@numba.njit
+def _one_by_one(points, nodes, sites, w):
+    found = np.full(len(points), -1)
+    for q in sites:
+        found[q], _ = dag.locate(points, nodes, q, w)
+    return found
+
+
+@pytest.mark.parametrize("name", EVERY_SET)
+def test_lanes_lead_to_the_leaf_that_a_location_finds(name):
+    store, order = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    half = len(order) // 2
+    assert store.state[0, NEXT] == 0
+    store.state[0, END] = half
+    w = work_array(store.points)
+    assert sequential.run(store.points, store.nodes, store.shared, store.state, order, 0, False, w) == DONE
+    hands = lanes.empty_lanes(1)[0]
+    found = _through_lanes(store.points, store.nodes, hands, order[half:], w)
+    np.testing.assert_array_equal(found, _one_by_one(store.points, store.nodes, order[half:], w))

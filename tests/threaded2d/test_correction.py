@@ -1,0 +1,54 @@
+"""The correction of swaps that were given up: from edges flipped at random back to Delaunay."""
+
+import numba
+import numpy as np
+import pytest
+
+from dt3d.predicates import work_array
+from dt3d.predicates.filtered2d import orient2d
+from dt3d.threaded2d import correction, sequential
+from dt3d.threaded2d.compaction import compact
+from dt3d.threaded2d.costs import prepared
+from dt3d.threaded2d.plan import Options
+from dt3d.threaded2d.steps import DONE
+from dt3d.threaded2d.store import CHILD, NEIGHBOR, USED
+
+from .families import EVERY_SET, canonical
+
+
+@numba.njit
+def _spoil(points, nodes, edges, w):
+    """Flip those of the edges whose two triangles make a convex quadrilateral; how many."""
+    flips = 0
+    for edge in edges:
+        t, k = edge >> 2, edge & 3
+        u, j = nodes[t, NEIGHBOR + k] >> 2, nodes[t, NEIGHBOR + k] & 3
+        p, a, b = nodes[t, k], nodes[t, (k + 1) % 3], nodes[t, (k + 2) % 3]
+        d = nodes[u, j]
+        if min(p, a, b, d) < 0:
+            continue
+        if orient2d(points, p, a, d, w) > 0 and orient2d(points, p, d, b, w) > 0:
+            correction._flip(nodes, t, k)
+            flips += 1
+    return flips
+
+
+@pytest.mark.parametrize("name", EVERY_SET)
+@pytest.mark.parametrize("threads", [1, 3])
+def test_edges_flipped_at_random_are_flipped_back(name, threads):
+    store, order = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    works = [work_array(store.points) for _ in range(threads)]
+    run = sequential.run(store.points, store.nodes, store.shared, store.state, order, 0, False, works[0])
+    assert run == DONE
+    used, rows = int(store.shared[USED, 0]), np.arange(len(store.points))
+    want = canonical(compact(store.nodes, used, rows)[0])
+    leaves = np.flatnonzero(store.nodes[:used, CHILD] < 0)
+    rng = np.random.default_rng(0)
+    edges = 4 * rng.choice(leaves, 200) + rng.integers(0, 3, 200)
+    spoilt = _spoil(store.points, store.nodes, edges, works[0])
+    flips = correction.correct(store.points, store.nodes, used, works)
+    assert (flips > 0) == (spoilt > 0)
+    triangles, neighbors, _ = compact(store.nodes, used, rows)
+    np.testing.assert_array_equal(canonical(triangles), want)
+    t, k = np.nonzero(neighbors >= 0)
+    assert (neighbors[neighbors[t, k]] == t[:, None]).any(axis=1).all()
