@@ -16,29 +16,53 @@ SMALLEST_ROUND = 64
 MOST_ROUNDS = 24
 
 
-@numba.njit(nogil=True, cache=True)
-def _hilbert(x, y, bits):
-    """The place of cell (x, y), of 2^bits a side, along Hilbert's curve."""
-    place = np.uint64(0)
-    for i in range(bits - 1, -1, -1):
-        rx = (x >> i) & 1
-        ry = (y >> i) & 1
-        place = (place << np.uint64(2)) | np.uint64((3 * rx) ^ ry)
-        if ry == 0:
-            if rx == 1:
-                x, y = ~x, ~y
-            x, y = y, x
+def _turns() -> np.ndarray:
+    """Hilbert's curve, four bits of both coordinates at a time: uint16 (4 * 256,).
+
+    Row 256 t + 16 x + y is for the cell (x, y) of a square of 16 x 16 that is turned by t, in whose bits 0
+    and 1 are whether coordinates are exchanged and whether they are complemented: the cell's place along the
+    curve, times 4, and how the cell is turned.
+    """
+    table = np.empty(4 * 256, np.uint16)
+    for row in range(len(table)):
+        exchanged, complemented = row >> 8 & 1, row >> 9
+        place = 0
+        for i in (3, 2, 1, 0):
+            rx, ry = row >> 4 + i & 1 ^ complemented, row >> i & 1 ^ complemented
+            if exchanged:
+                rx, ry = ry, rx
+            place = place << 2 | (3 * rx) ^ ry
+            if ry == 0:
+                exchanged, complemented = 1 - exchanged, complemented ^ rx
+        table[row] = place << 2 | complemented << 1 | exchanged
+    return table
+
+
+_TURNS = _turns()
+_COORDINATE_BITS = 24
+
+
+@numba.njit(nogil=True, cache=True, forceinline=True)
+def _hilbert(x, y):
+    """The place of cell (x, y), of 2^24 a side, along Hilbert's curve."""
+    place, turn = np.uint64(0), np.int64(0)
+    for shift in (20, 16, 12, 8, 4, 0):
+        entry = _TURNS[256 * turn + 16 * ((x >> shift) & 15) + ((y >> shift) & 15)]
+        place = (place << np.uint64(8)) | np.uint64(entry >> 2)
+        turn = np.int64(entry & 3)
     return place
 
 
 @numba.njit(nogil=True, cache=True)
 def _keys(points, low_x, low_y, scale, bits, index_bits, out):
-    """Places along the curve with the numbers of the sites in the low bits."""
+    """Places along the curve, of 2^bits cells a side, with the numbers of the sites in the low bits."""
     top = (1 << bits) - 1
+    finer = _COORDINATE_BITS - bits
     for i in range(len(points)):
         x = min(np.int64((points[i, 0] - low_x) * scale), top)
         y = min(np.int64((points[i, 1] - low_y) * scale), top)
-        out[i] = (_hilbert(x, y, bits) << np.uint64(index_bits)) | np.uint64(i)
+        place = _hilbert(x << finer, y << finer) >> np.uint64(2 * finer)
+        out[i] = (place << np.uint64(index_bits)) | np.uint64(i)
 
 
 @numba.njit(nogil=True, cache=True)
@@ -59,7 +83,7 @@ def along_curve(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     n = len(points)
     index_bits = max(1, int(n - 1).bit_length())
-    bits = min(24, (64 - index_bits) // 2)
+    bits = min(_COORDINATE_BITS, (64 - index_bits) // 2)
     low_x, low_y, extent = _extent(points)
     # the extent may be subnormal, so the sites are scaled in two steps
     scale = 2.0**bits / extent if extent > 2.0**-900 else 0.0
