@@ -21,7 +21,8 @@ from .flips import insert
 from .lanes import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
 from .prefetch import prefetch, prefetch_around, prefetch_beyond
 from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
-from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, next_site, pause, verdict
+from .share import borrowed_sites, next_site
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, pause, verdict
 from .store import (
     AT,
     CHANGE_CYCLES,
@@ -51,10 +52,10 @@ def _finish(points, nodes, t, q, walking, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def _locate(points, nodes, state, order, lanes, hands, me, walking, w):
+def _locate(points, nodes, state, sites, lanes, hands, me, walking, w):
     """Locate one more site of thread ``me``, into its hands; whether there was one left."""
     if walking:
-        q = next_site(state, order, me)
+        q = next_site(state, sites, me)
         if q < 0:
             return False
         state[me, NEXT] += 1
@@ -63,7 +64,7 @@ def _locate(points, nodes, state, order, lanes, hands, me, walking, w):
     else:
         for i in range(LANES):
             if lanes[i, LANE_SITE] == EMPTY:
-                q = next_site(state, order, me)
+                q = next_site(state, sites, me)
                 if q < 0:
                     break
                 state[me, NEXT] += 1
@@ -81,7 +82,7 @@ def _locate(points, nodes, state, order, lanes, hands, me, walking, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def search_step(points, nodes, shared, state, order, cells, lanes, hands, me, walking, helping, w):
+def search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, walking, helping, w):
     """One step of searching thread ``me``: locate a site, put some into the queue, or help."""
     if state[me, HELPED] != 0:
         if put(cells, shared, hands, AT_ONCE, 1) == 0:
@@ -89,7 +90,7 @@ def search_step(points, nodes, shared, state, order, cells, lanes, hands, me, wa
         state[me, HELPED] = 0
         return CHANGED
     left = state[me, IN_HAND] - state[me, AT]
-    if state[me, IN_HAND] < AT_ONCE and _locate(points, nodes, state, order, lanes, hands, me, walking, w):
+    if state[me, IN_HAND] < AT_ONCE and _locate(points, nodes, state, sites, lanes, hands, me, walking, w):
         return LOCATED
     if left == 0:
         return FINISHED
@@ -145,20 +146,15 @@ def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
 
 
 @numba.njit(nogil=True, cache=True)
-def run_searching(points, nodes, shared, state, order, me, cells, lanes, hands, walking, helping, w):
+def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, walking, helping, w):
     """A searching thread until its sites are in the queue; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, cells, lanes, hands, w = (
-        borrowed(order),
-        borrowed(cells),
-        borrowed(lanes),
-        borrowed(hands),
-        borrowed(w),
-    )
-    waiting = False
+    sites, cells, w = borrowed_sites(sites), borrowed(cells), borrowed(w)
+    lanes, hands = borrowed(lanes), borrowed(hands)
+    waiting = 0
     begun = cycles()
     while True:
-        did = search_step(points, nodes, shared, state, order, cells, lanes, hands, me, walking, helping, w)
+        did = search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, walking, helping, w)
         waiting, begun = pause(state, me, LOCATION_CYCLES, did, waiting, begun)
         reason = DONE if did == FINISHED else verdict(shared, True, True)
         if reason != GO_ON:
@@ -172,7 +168,7 @@ def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     cells, hands, w = borrowed(cells), borrowed(hands), borrowed(w)
-    waiting = False
+    waiting = 0
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)

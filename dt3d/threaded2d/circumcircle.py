@@ -31,16 +31,15 @@ from .pool import (
     still_waits,
     wait_for,
 )
+from .share import borrowed_sites, next_site
 from .steps import (
     CHANGED,
     DONE,
     FINISHED,
     GO_ON,
     LOCATED,
-    STOPPED,
     WAITING,
     find,
-    next_site,
     spend,
     verdict,
 )
@@ -188,7 +187,7 @@ def _try_legalisation(points, nodes, shared, state, pool, me, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def step(points, nodes, shared, state, order, pool, me, walking, w):
+def step(points, nodes, shared, state, sites, pool, me, walking, w):
     """One step of thread ``me``: locate a site, try to subdivide, or try to flip an edge."""
     if still_waits(state, pool, me):
         return WAITING
@@ -197,7 +196,7 @@ def step(points, nodes, shared, state, order, pool, me, walking, w):
         return _try_subdivision(points, nodes, shared, state, pool, me, walking, w)
     if state[me, PHASE] == LEGALISE:
         return _try_legalisation(points, nodes, shared, state, pool, me, w)
-    q = next_site(state, order, me)
+    q = next_site(state, sites, me)
     if q < 0:
         return FINISHED
     t, visited = find(points, nodes, state, me, q, walking, w)
@@ -208,17 +207,18 @@ def step(points, nodes, shared, state, order, pool, me, walking, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, me, pool, alone, walking, w):
-    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before.
+def run(points, nodes, shared, state, sites, me, pool, alone, walking, w):
+    """Insert sites until none is left for this thread; `DONE`, or why it came back before.
 
     The others begin when thread 0 has inserted ``alone`` sites.
     """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, pool, w = borrowed(order), borrowed(pool), borrowed(w)
+    sites, pool, w = borrowed_sites(sites), borrowed(pool), borrowed(w)
     waiting = 0
     while me > 0 and load(state, (0, INSERTED)) < alone:
-        if verdict(shared, True, False) == STOPPED:
-            return STOPPED
+        reason = verdict(shared, True, True)
+        if reason != GO_ON:
+            return reason
         wait_a_little(waiting)
         waiting += 1
     waiting = 0
@@ -227,7 +227,7 @@ def run(points, nodes, shared, state, order, me, pool, alone, walking, w):
         reason = verdict(shared, True, state[me, PHASE] == BEGIN)
         if reason != GO_ON:
             return reason
-        did = step(points, nodes, shared, state, order, pool, me, walking, w)
+        did = step(points, nodes, shared, state, sites, pool, me, walking, w)
         if did == FINISHED:
             return DONE
         if did != CHANGED or waiting > 0 or state[me, PHASE] == BEGIN:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+from itertools import pairwise
+
 import numba
 import numpy as np
 
 from .store import CHILD, NEIGHBOR
+from .threads import together
 
 
 @numba.njit(nogil=True, cache=True)
@@ -31,7 +35,9 @@ def _collect(nodes, begin, end, number, site, triangles, neighbors, maker):
             maker[s] = -1 - nodes[t, CHILD]
 
 
-def compact(nodes: np.ndarray, used: int, site: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def compact(
+    nodes: np.ndarray, used: int, site: np.ndarray, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Finite triangles, their neighbours, and the threads that made them: int32 (m, 3), (m, 3), int16 (m,).
 
     ``site`` holds the number of each row of the points, int (n,).
@@ -40,5 +46,12 @@ def compact(nodes: np.ndarray, used: int, site: np.ndarray) -> tuple[np.ndarray,
     m = _number(nodes, used, number)
     triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
     maker = np.empty(m, np.int16)
-    _collect(nodes, 0, used, number, site, triangles, neighbors, maker)
+    bounds = [used * k // threads for k in range(threads + 1)]
+    together(
+        [
+            partial(_collect, nodes, begin, end, number, site, triangles, neighbors, maker)
+            for begin, end in pairwise(bounds)
+        ],
+        lambda: None,
+    )
     return triangles, neighbors, maker

@@ -8,6 +8,7 @@ not needed any more.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from itertools import pairwise
 
 import numba
@@ -113,6 +114,6 @@ def correct(points: np.ndarray, nodes: np.ndarray, used: int, works: Sequence[np
     def task(k: int) -> int:
         return find_illegal(points, nodes, leaves, bounds[k], bounds[k + 1], found[k], works[k])
 
-    counts = together([lambda k=k: task(k) for k in range(len(works))], lambda: None)
+    counts = together([partial(task, k) for k in range(len(works))], lambda: None)
     edges = np.concatenate([f[:count] for f, count in zip(found, counts, strict=True)])
     return flip_illegal(points, nodes, edges, works[0])

@@ -15,16 +15,15 @@ from .first import first_triangle
 from .order import along_curve
 from .plan import Options, parts_with_sites
 from .pool import touches
+from .share import Sites, share
 from .steps import now
 from .store import (
     CHANGE_CYCLES,
     CHILD,
-    END,
     FLIPS,
     INSERTED,
     LOCATION_CYCLES,
     NEIGHBOR,
-    NEXT,
     USED,
     VISITED,
     Store,
@@ -68,18 +67,17 @@ class Costs:
     slice: float = SLICE
 
 
-def prepared(points: np.ndarray, options: Options) -> tuple[Store, np.ndarray]:
-    """The store of a run, with room for all it may need, and the order of insertion."""
+def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
+    """The store of a run, with room for all it may need, and its sites."""
     site, _ = along_curve(points)
     if options.order == "random":
         site = np.sort(site)
-    rows = np.ascontiguousarray(points[site])
+    rows = np.take(points, site, axis=0)
     parts = parts_with_sites(options)
     order, bounds = insertion_order(rows, options.order, options.subdivision, parts, options.seed)
     first, order, bounds = first_triangle(rows, order, bounds)
     store = Store(rows, first, options.threads, 24 * len(rows) + 4096 * options.threads)
-    store.state[:parts, NEXT], store.state[:parts, END] = bounds[:-1], bounds[1:]
-    return store, order
+    return store, share(order, bounds)
 
 
 @numba.njit(nogil=True, cache=True)

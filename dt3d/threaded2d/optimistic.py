@@ -15,7 +15,8 @@ from .atomics import cycles, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
 from .dag import descend, locate
 from .flips import insert
-from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, next_site, spend, verdict
+from .share import borrowed_sites, next_site
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, spend, verdict
 from .store import (
     ACCESSES,
     CHANGE_CYCLES,
@@ -53,10 +54,10 @@ def _unlock_star(nodes, f):
 
 
 @numba.njit(cache=True, forceinline=True)
-def step(points, nodes, shared, state, order, held, cavity, rim, me, w):
+def step(points, nodes, shared, state, sites, held, cavity, rim, me, w):
     """One step of thread ``me``: locate a site, get exclusive access, or subdivide and legalise."""
     if state[me, PHASE] == BEGIN:
-        q = next_site(state, order, me)
+        q = next_site(state, sites, me)
         if q < 0:
             return FINISHED
         t, visited = locate(points, nodes, q, w)
@@ -87,10 +88,10 @@ def step(points, nodes, shared, state, order, held, cavity, rim, me, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, me, scratch, w):
-    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
+def run(points, nodes, shared, state, sites, me, scratch, w):
+    """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, w = borrowed(order), borrowed(w)
+    sites, w = borrowed_sites(sites), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
     waiting = 0
     begun = cycles()
@@ -100,7 +101,7 @@ def run(points, nodes, shared, state, order, me, scratch, w):
         reason = verdict(shared, phase != CHANGE, phase == BEGIN)
         if reason != GO_ON:
             return reason
-        did = step(points, nodes, shared, state, order, held, cavity, rim, me, w)
+        did = step(points, nodes, shared, state, sites, held, cavity, rim, me, w)
         if did == FINISHED:
             return DONE
         column = WAIT_CYCLES if did == WAITING else (LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES)

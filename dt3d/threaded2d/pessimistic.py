@@ -9,7 +9,8 @@ from ..predicates.borrowed import borrowed
 from .atomics import compare_and_swap, cycles, give_way, load, release
 from .dag import descend
 from .flips import insert
-from .steps import DONE, GO_ON, STOPPED, find, next_site, spend, verdict
+from .share import borrowed_sites, next_site
+from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
 from .store import (
     CHANGE_CYCLES,
     CRITICAL,
@@ -27,16 +28,16 @@ from .walk import walk_history
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, me, walking, w):
-    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
+def run(points, nodes, shared, state, sites, me, walking, w):
+    """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, w = borrowed(order), borrowed(w)
+    sites, w = borrowed_sites(sites), borrowed(w)
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)
         if reason != GO_ON:
             return reason
-        q = next_site(state, order, me)
+        q = next_site(state, sites, me)
         if q < 0:
             return DONE
         t, visited = find(points, nodes, state, me, q, walking, w)

@@ -18,17 +18,16 @@ from .lanes import empty_lanes
 from .order import along_curve
 from .pool import empty_pool
 from .queue import empty_queue
+from .share import Sites, share
 from .statistics import Statistics
 from .store import (
     ACCESSES,
     CHANGE_CYCLES,
-    END,
     EXCEPTIONS,
     FLIPS,
     GIVEN_UP,
     INSERTED,
     LOCATION_CYCLES,
-    NEXT,
     QUEUE_FILL,
     RETRIES,
     ROOTS,
@@ -102,7 +101,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     site, duplicates = along_curve(points)
     if options.order == "random":
         site = np.sort(site)
-    rows = np.ascontiguousarray(points[site])
+    rows = np.take(points, site, axis=0)
     order, bounds = insertion_order(
         rows,
         options.order,
@@ -117,10 +116,9 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     begun = time.perf_counter()
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
-    store.state[: parts_with_sites(options), NEXT] = bounds[:-1]
-    store.state[: parts_with_sites(options), END] = bounds[1:]
     store.shared[STUMBLE, 0] = options.stumble
-    run = _Run(options, store, order)
+    sites = share(order, bounds)
+    run = _Run(options, store, sites)
     ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
     elapsed = time.perf_counter() - clock
@@ -133,11 +131,10 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
 
     begun = time.perf_counter()
     used = capacity if capacity is not None else int(store.shared[USED, 0])
-    triangles, neighbors, maker = compact(store.nodes, used, site)
+    triangles, neighbors, maker = compact(store.nodes, used, site, options.threads)
     inserted_by = np.full(len(points), -1, np.int16)
     inserted_by[site[first]] = 0
-    for k in range(len(bounds) - 1):
-        inserted_by[site[order[bounds[k] : bounds[k + 1]]]] = k
+    inserted_by[site[order]] = sites.taker
     seconds["extraction"] = time.perf_counter() - begun
     stats = _statistics(run, corrected, seconds, per_cycle)
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
@@ -151,14 +148,14 @@ def parts_with_sites(options: Options) -> int:
 class _Run:
     """The tasks of a run, called again after the structure has grown."""
 
-    def __init__(self, options: Options, store: Store, order: np.ndarray) -> None:
-        self.options, self.store, self.order = options, store, order
+    def __init__(self, options: Options, store: Store, sites: Sites) -> None:
+        self.options, self.store, self.sites = options, store, sites
         self.cpu_seconds = [0.0] * options.threads
         self.cells = empty_queue(options.queue_length)
         self.lanes = empty_lanes(options.threads)
         self.hands = batch.empty_hands(options.threads)
         self.pool = empty_pool(options.threads)
-        self.alone = min(circumcircle.HEAD_START * options.threads, len(order) // (8 * options.threads))
+        self.alone = min(circumcircle.HEAD_START * options.threads, len(sites.order) // (8 * options.threads))
         self.work = [work_array(store.points) for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
@@ -193,7 +190,7 @@ class _Run:
 
     def _task(self, k: int) -> Callable[[], Any]:
         o, s = self.options, self.store
-        common = (s.points, s.nodes, s.shared, s.state, self.order, k)
+        common = (s.points, s.nodes, s.shared, s.state, self.sites, k)
         walking = o.location == "walk"
         if o.in_place:
             lock = k + 1 if o.threads > 1 else 0

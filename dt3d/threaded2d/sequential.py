@@ -7,21 +7,22 @@ import numba
 from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .flips import insert
-from .steps import DONE, GO_ON, find, next_site, spend, verdict
+from .share import borrowed_sites, next_site
+from .steps import DONE, GO_ON, find, spend, verdict
 from .store import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, me, walking, w):
-    """Insert order[NEXT] to order[END - 1] of this thread; `DONE`, or why it came back before."""
+def run(points, nodes, shared, state, sites, me, walking, w):
+    """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, w = borrowed(order), borrowed(w)
+    sites, w = borrowed_sites(sites), borrowed(w)
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)
         if reason != GO_ON:
             return reason
-        q = next_site(state, order, me)
+        q = next_site(state, sites, me)
         if q < 0:
             return DONE
         t, visited = find(points, nodes, state, me, q, walking, w)

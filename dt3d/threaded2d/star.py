@@ -11,6 +11,7 @@ import numba
 from ..predicates.borrowed import borrowed
 from .atomics import load, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
+from .share import borrowed_sites, take
 from .steps import DONE, STOPPED
 from .store import (
     CHILD,
@@ -59,24 +60,28 @@ def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, order, me, lock, scratch, w):
-    """Insert order[NEXT] to order[END - 1] of this thread, each from the triangle where the last one was.
+def run(points, nodes, shared, state, sites, me, lock, scratch, w):
+    """Insert sites until none is left for this thread, each from the triangle where the last one was.
 
     With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive
     access to its conflicts and the triangles around them, and begins again where it does not get it.
     """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, w = borrowed(order), borrowed(w)
+    sites, w = borrowed_sites(sites), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
-    hint, end = state[me, HINT], state[me, END]
-    at = state[me, NEXT]
+    hint, at, end = state[me, HINT], state[me, NEXT], state[me, END]
     visited = flips = inserted = retries = 0
     tries, result = 0, DONE
-    while at < end:
+    while True:
+        if at == end:
+            state[me, NEXT] = at
+            if not take(state, sites, me):
+                break
+            at, end = state[me, NEXT], state[me, END]
         if load(shared, (STOP, 0)) != 0:
             result = STOPPED
             break
-        q = order[at]
+        q = sites[0][at]
         t, steps = walk(points, nodes, hint, q, w)
         visited += steps
         stumble(shared, state, me)

@@ -10,8 +10,10 @@ import numba
 
 from .atomics import cycles, load, nap
 from .dag import locate
-from .store import END, HINT, NEXT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
+from .store import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
 from .walk import walk_history
+
+LOOKS = 50  # at the queue before a thread that waits sleeps: about a microsecond
 
 # what a step returns
 LOCATED, CHANGED, WAITING, FINISHED = range(4)
@@ -41,12 +43,6 @@ def verdict(shared, may_stop, may_fill):
 
 
 @numba.njit(cache=True, forceinline=True)
-def next_site(state, order, me):
-    """The next site of thread ``me``; -1 where it has none left."""
-    return order[state[me, NEXT]] if state[me, NEXT] < state[me, END] else -1
-
-
-@numba.njit(cache=True, forceinline=True)
 def find(points, nodes, state, me, q, walking, w):
     """The leaf that contains q, from the roots or by walking from the last one, and how many were visited."""
     if walking:
@@ -64,17 +60,18 @@ def spend(state, me, column, begun):
 
 @numba.njit(cache=True, forceinline=True)
 def pause(state, me, column, did, waiting, begun):
-    """Account for a step of a thread at the queue, and sleep a little where it waits.
+    """Account for a step of a thread at the queue, and wait a little where it has to: look again, then sleep.
 
     A nap does not empty a long queue, nor fill it. Giving way would be worse with more threads than
     processors: a scheduler may then let another one run for milliseconds.
 
-    Returns whether it waits, and when the present wait, or what is no wait, began.
+    Returns how many steps in a row have waited, and when the present wait, or what is no wait, began.
     """
-    waits = did == WAITING
-    if waits != waiting:
+    if (did == WAITING) != (waiting > 0):
         begun = spend(state, me, WAIT_CYCLES if waiting else column, begun)
-        state[me, WAITS] += waits
-    if waits:
+        state[me, WAITS] += did == WAITING
+    if did != WAITING:
+        return 0, begun
+    if waiting > LOOKS:
         nap()
-    return waits, begun
+    return waiting + 1, begun

@@ -28,7 +28,8 @@ from .lanes import empty_lanes
 from .plan import Options
 from .pool import empty_pool
 from .queue import empty_queue
-from .steps import CHANGED, FINISHED, WAITING, next_site
+from .share import borrowed_sites, next_site
+from .steps import CHANGED, FINISHED, WAITING
 from .store import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
@@ -63,18 +64,18 @@ def _counted(state, k):
 
 @numba.njit(cache=True, forceinline=True)
 def _step(
-    points, nodes, shared, state, order, pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w
+    points, nodes, shared, state, sites, pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w
 ):
     """A step of thread k."""
     if method == BATCH:
         if k == len(state) - 1:
             return batch.specialised_step(points, nodes, shared, state, cells, hands[k], k, False, w)
         return batch.search_step(
-            points, nodes, shared, state, order, cells, lanes[k], hands[k], k, False, helping, w
+            points, nodes, shared, state, sites, cells, lanes[k], hands[k], k, False, helping, w
         )
     if method == CIRCUMCIRCLE:
-        return circumcircle.step(points, nodes, shared, state, order, pool, k, False, w)
-    return optimistic.step(points, nodes, shared, state, order, held[k], cavity[k], rim[k], k, w)
+        return circumcircle.step(points, nodes, shared, state, sites, pool, k, False, w)
+    return optimistic.step(points, nodes, shared, state, sites, held[k], cavity[k], rim[k], k, w)
 
 
 @numba.njit(nogil=True, cache=True)
@@ -83,7 +84,7 @@ def _simulate(
     nodes,
     shared,
     state,
-    order,
+    sites,
     pool,
     cells,
     lanes,
@@ -99,7 +100,7 @@ def _simulate(
 ):
     """Seconds of the last element to end, and of all elements that were not spent waiting."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, pool, cells, w = borrowed(order), borrowed(pool), borrowed(cells), borrowed(w)
+    sites, pool, cells, w = borrowed_sites(sites), borrowed(pool), borrowed(cells), borrowed(w)
     lanes, hands = borrowed(lanes), borrowed(hands)
     held, cavity, rim = borrowed(held), borrowed(cavity), borrowed(rim)
     visit, node, test, queue, locks, wait, time_slice = costs
@@ -131,7 +132,7 @@ def _simulate(
         v, f, i, c = _counted(state, k)
         in_hand = state[k, INSERTED]
         did = _step(
-            points, nodes, shared, state, order,
+            points, nodes, shared, state, sites,
             pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
         )  # fmt: skip
         v2, f2, i2, c2 = _counted(state, k)
@@ -162,11 +163,11 @@ def _simulate(
 
 
 @numba.njit(nogil=True, cache=True)
-def _simulate_critical(points, nodes, shared, state, order, elements, costs, w):
+def _simulate_critical(points, nodes, shared, state, sites, elements, costs, w):
     """The pessimistic method, and with one element the sequential one: as long as an element is in the
     critical section, others that come to it wait; one thread on each element."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    order, w = borrowed(order), borrowed(w)
+    sites, w = borrowed_sites(sites), borrowed(w)
     visit, node, test, queue, locks, wait, time_slice = costs
     clock = np.zeros(elements)
     free, busy = 0.0, 0.0
@@ -178,7 +179,7 @@ def _simulate_critical(points, nodes, shared, state, order, elements, costs, w):
         for i in range(elements):
             if not ended[i] and (e < 0 or clock[i] < clock[e]):
                 e = i
-        q = next_site(state, order, e)
+        q = next_site(state, sites, e)
         if q < 0:
             ended[e] = True
             left -= 1
@@ -226,11 +227,11 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
     method = _METHODS[options.method]
     if method in (SEQUENTIAL, PESSIMISTIC):
         options = replace(options, threads=elements if method == PESSIMISTIC else 1)
-    store, order = prepared(points, options)
+    store, sites = prepared(points, options)
     n = len(store.points)
     w = work_array(store.points)
     price = (costs.visit, costs.node, costs.test, costs.queue, costs.locks, costs.wait, costs.slice)
-    common = (store.points, store.nodes, store.shared, store.state, order)
+    common = (store.points, store.nodes, store.shared, store.state, sites)
     if method in (SEQUENTIAL, PESSIMISTIC):
         seconds, busy = _simulate_critical(*common, options.threads, price, w)
         elements = options.threads

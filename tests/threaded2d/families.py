@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from dt3d import threaded2d
+
 
 def canonical(triangles):
     """Triangles turned until the least vertex is first, in lexicographic order."""
@@ -53,3 +55,16 @@ def circle_of_integers(n):
 
 DEGENERATE = {f.__name__: f for f in (lattice_with_copies, line_and_apex, circle_of_integers)}
 EVERY_SET = DISTRIBUTIONS | DEGENERATE
+
+
+def assert_methods_agree(points, want):
+    """Every method, with as many threads as usual, finds the triangles ``want``, in canonical order."""
+    for method, threads in (
+        ("batch", 4),
+        ("circumcircle", 2),
+        ("optimistic", 3),
+        ("pessimistic", 2),
+        ("auto", 2),
+    ):
+        tri = threaded2d.Delaunay(points, method=method, threads=threads)
+        np.testing.assert_array_equal(canonical(tri.triangles), want)

@@ -10,8 +10,9 @@ from dt3d.threaded2d.atomics import padded
 from dt3d.threaded2d.costs import prepared
 from dt3d.threaded2d.plan import Options
 from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
+from dt3d.threaded2d.share import PIECE, share, take
 from dt3d.threaded2d.steps import DONE
-from dt3d.threaded2d.store import END, NEXT, SHARED_ROWS
+from dt3d.threaded2d.store import END, NEXT, PART, SHARED_ROWS, STATE_COLUMNS
 from dt3d.threaded2d.threads import together
 
 from .families import EVERY_SET
@@ -109,12 +110,37 @@ def _one_by_one(points, nodes, sites, w):
 
 @pytest.mark.parametrize("name", EVERY_SET)
 def test_lanes_lead_to_the_leaf_that_a_location_finds(name):
-    store, order = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
-    half = len(order) // 2
-    assert store.state[0, NEXT] == 0
-    store.state[0, END] = half
+    store, sites = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    half = len(sites.order) // 2
+    some, others = share(sites.order[:half], np.array([0, half])), sites.order[half:]
     w = work_array(store.points)
-    assert sequential.run(store.points, store.nodes, store.shared, store.state, order, 0, False, w) == DONE
+    assert sequential.run(store.points, store.nodes, store.shared, store.state, some, 0, False, w) == DONE
     hands = lanes.empty_lanes(1)[0]
-    found = _through_lanes(store.points, store.nodes, hands, order[half:], w)
-    np.testing.assert_array_equal(found, _one_by_one(store.points, store.nodes, order[half:], w))
+    found = _through_lanes(store.points, store.nodes, hands, others, w)
+    np.testing.assert_array_equal(found, _one_by_one(store.points, store.nodes, others, w))
+
+
+def test_a_thread_that_has_done_its_part_takes_of_the_others():
+    n = 5 * PIECE
+    sites = share(np.arange(2 * n), np.array([0, n, 2 * n]))
+    state = np.zeros((2, STATE_COLUMNS), np.int64)
+    state[:, PART] = 0, 1
+    assert take(state, sites, 1)
+    taken = [(n, n + PIECE)]
+    while take(state, sites, 0):
+        taken.append((int(state[0, NEXT]), int(state[0, END])))
+    assert sorted(begin for begin, _ in taken) == list(range(0, 2 * n, PIECE))
+    assert all(end - begin == PIECE for begin, end in taken)
+    assert not take(state, sites, 1)
+    assert (sites.taker == np.where(np.arange(2 * n) // PIECE == 5, 1, 0)).all()
+
+
+def test_small_parts_stay_with_their_threads():
+    bounds = np.array([0, PIECE - 1, 2 * PIECE - 2])
+    sites = share(np.arange(bounds[-1]), bounds)
+    state = np.zeros((2, STATE_COLUMNS), np.int64)
+    state[:, PART] = 0, 1
+    assert take(state, sites, 0)
+    assert not take(state, sites, 0)
+    assert take(state, sites, 1)
+    assert (sites.taker == np.repeat([0, 1], PIECE - 1)).all()

@@ -36,9 +36,9 @@ def _spoil(points, nodes, edges, w):
 @pytest.mark.parametrize("name", EVERY_SET)
 @pytest.mark.parametrize("threads", [1, 3])
 def test_edges_flipped_at_random_are_flipped_back(name, threads):
-    store, order = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    store, sites = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
     works = [work_array(store.points) for _ in range(threads)]
-    run = sequential.run(store.points, store.nodes, store.shared, store.state, order, 0, False, works[0])
+    run = sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, works[0])
     assert run == DONE
     used, rows = int(store.shared[USED, 0]), np.arange(len(store.points))
     want = canonical(compact(store.nodes, used, rows)[0])

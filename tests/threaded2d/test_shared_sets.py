@@ -8,8 +8,11 @@ import pytest
 
 import dt3d
 from dt3d import threaded2d
+from dt3d.threaded2d.subdivision import SUBDIVISIONS
 
-from .families import canonical
+from .families import assert_methods_agree, canonical
+
+PARALLEL = ("batch", "circumcircle", "pessimistic", "optimistic")
 
 FOLDER = Path(__file__).parents[3] / "shared" / "data"
 FROM_ABOVE = (
@@ -38,13 +41,17 @@ def sets_in_the_plane():
     return found or ["none:"]
 
 
-@pytest.mark.parametrize("name", sets_in_the_plane())
-def test_all_methods_agree_on_the_set(name):
+def points_of(name):
     if not FOLDER.is_dir():
         pytest.skip(f"the point sets are not at {FOLDER}")
     stem, key = name.split(":")
     with np.load(FOLDER / f"{stem}.npz") as file:
-        points = file[key][:, :2]
+        return file[key][:, :2]
+
+
+@pytest.mark.parametrize("name", sets_in_the_plane())
+def test_all_methods_agree_on_the_set(name):
+    points = points_of(name)
     try:
         tri = threaded2d.Delaunay(points, method="sequential")
     except dt3d.DegenerateInputError as error:
@@ -52,12 +59,27 @@ def test_all_methods_agree_on_the_set(name):
         return
     assert tri.verify(), tri.verify()
     want = canonical(tri.triangles)
-    for method, threads in (
-        ("batch", 4),
-        ("circumcircle", 2),
-        ("optimistic", 3),
-        ("pessimistic", 2),
-        ("auto", 2),
-    ):
-        same = threaded2d.Delaunay(points, method=method, threads=threads)
-        np.testing.assert_array_equal(canonical(same.triangles), want)
+    assert_methods_agree(points, want)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sets_in_the_plane())
+def test_every_number_of_threads_and_subdivision_agrees_on_the_set(name):
+    points = points_of(name)
+    try:
+        want = canonical(threaded2d.Delaunay(points, method="sequential").triangles)
+    except dt3d.DegenerateInputError:
+        for method in PARALLEL:
+            with pytest.raises(dt3d.DegenerateInputError):
+                threaded2d.Delaunay(points, method=method, threads=2)
+        return
+    few = len(points) <= 5000
+    for method in PARALLEL:
+        for threads in range(1 + (method == "batch"), 9):
+            for i, subdivision in enumerate(SUBDIVISIONS):
+                if few or i == threads % len(SUBDIVISIONS):
+                    order = "brio" if subdivision == "curve" or threads % 2 else "random"
+                    same = threaded2d.Delaunay(
+                        points, method=method, threads=threads, order=order, subdivision=subdivision
+                    )
+                    np.testing.assert_array_equal(canonical(same.triangles), want)

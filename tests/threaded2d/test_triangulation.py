@@ -14,7 +14,7 @@ from dt3d import threaded2d
 from dt3d.threaded2d.delaunay import _options
 from dt3d.threaded2d.plan import triangulate
 
-from .families import DISTRIBUTIONS, EVERY_SET, canonical
+from .families import DISTRIBUTIONS, EVERY_SET, assert_methods_agree, canonical
 
 PARALLEL = ("batch", "circumcircle", "pessimistic", "optimistic")
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
@@ -108,15 +108,7 @@ def test_large_sets(name, n):
     reference = threaded2d.Delaunay(points, method="sequential")
     assert reference.verify(), reference.verify()
     want = canonical(reference.triangles)
-    for method, threads in (
-        ("batch", 4),
-        ("circumcircle", 2),
-        ("optimistic", 3),
-        ("pessimistic", 2),
-        ("auto", 2),
-    ):
-        tri = threaded2d.Delaunay(points, method=method, threads=threads)
-        np.testing.assert_array_equal(canonical(tri.triangles), want)
+    assert_methods_agree(points, want)
 
 
 @pytest.mark.parametrize("name", ["uniform", "gauss", "cluster"])
