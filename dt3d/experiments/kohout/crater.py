@@ -28,20 +28,9 @@ def crater(
     if points < len(sites):
         sites = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:points])]
     given = _Set(sites[:, :2], repeats)
-    processors = os.cpu_count() or 1
     rows: list[Row] = []
     for method, (two, four) in PAPER.items():
-        threads = {p: 4 if method == "batch" else p for p in (2, 4, processors)}
-        rows.append(
-            {
-                "method": method,
-                "paper 2": two,
-                "paper 4": four,
-                "virtual 2": given.virtual(method, threads[2], 2),
-                "virtual 4": given.virtual(method, threads[4], 4),
-                "measured": given.measured(method, threads[processors]),
-            }
-        )
+        rows.append({"method": method, "paper 2": two, "paper 4": four} | given.row(method))
     tri = Delaunay(sites[:, :2], method="circumcircle", threads=4, subdivision="x-slabs")
 
     def draw(axes: Any) -> None:
@@ -56,6 +45,6 @@ def crater(
         axes.set_aspect("equal")
         axes.set_title(f"{len(sites):,} points of Crater Lake; colours: the thread that made the triangle")
 
-    note = f"{len(sites):,} points of the terrain. " + NOTE.format(processors=processors, repeats=repeats)
+    note = f"{len(sites):,} points of the terrain. " + NOTE.format(processors=os.cpu_count(), repeats=repeats)
     publish("kohout-crater", "Kohout et al. 2004, Fig. 13: Crater Lake", rows, out, console, draw, note)
     return rows

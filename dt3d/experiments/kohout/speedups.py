@@ -43,6 +43,14 @@ NOTE = (
 )
 
 
+SEARCHING = 3  # to one specialised thread, with the batch method
+
+
+def threads_for(method: str, elements: int) -> int:
+    """All threads of a method on so many processing elements."""
+    return SEARCHING + 1 if method == "batch" else elements
+
+
 def _options(
     method: str, threads: int, n: int, subdivision: str = "random", order: str = "random"
 ) -> Options:
@@ -75,6 +83,15 @@ class _Set:
         alone, together = np.median(np.array(times), axis=0)
         return float(alone / together)
 
+    def row(self, method: str) -> Row:
+        """Speed-ups on 2 and 4 simulated elements, and here."""
+        processors = os.cpu_count() or 1
+        return {
+            "virtual 2": self.virtual(method, threads_for(method, 2), 2),
+            "virtual 4": self.virtual(method, threads_for(method, 4), 4),
+            "measured": self.measured(method, threads_for(method, processors)),
+        }
+
 
 def _compiled(points: np.ndarray, options: Options) -> None:
     """Have everything compiled that a run may need, before the clock runs."""
@@ -103,24 +120,17 @@ def _lines(rows: list[Row], x: str, columns: dict[str, str], ylabel: str) -> Cal
 
 
 def _by_size(
-    name: str, title: str, method: str, paper: Mapping[int, tuple[float, ...]], threads: Callable[[int], int],
-    out: Path, console: Console, points: int | str, repeats: int, make: Any = sets.uniform,
+    name: str, title: str, method: str, paper: Mapping[int, tuple[float, ...]],
+    out: Path, console: Console, points: int | str, repeats: int,
 ) -> list[Row]:  # fmt: skip
     rows: list[Row] = []
-    processors = os.cpu_count() or 1
     for n in sets.sizes(points):
-        given = _Set(make(n), repeats)
         known = paper.get(n)
-        rows.append(
-            {
-                "points": n,
-                "virtual 2": given.virtual(method, threads(2), 2),
-                "virtual 4": given.virtual(method, threads(4), 4),
-                "measured": given.measured(method, threads(processors)),
-                "paper P 410, 2": known[1] if known else None,
-                "paper PE 6400, 2": known[2] if known else None,
-            }
-        )
+        of_paper = {
+            "paper P 410, 2": known[1] if known else None,
+            "paper PE 6400, 2": known[2] if known else None,
+        }
+        rows.append({"points": n} | _Set(sets.uniform(n), repeats).row(method) | of_paper)
     styles = {
         "virtual 2": "o-",
         "virtual 4": "o-",
@@ -128,7 +138,7 @@ def _by_size(
         "paper P 410, 2": "s--",
         "paper PE 6400, 2": "s--",
     }
-    note = NOTE.format(processors=processors, repeats=repeats)
+    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
     publish(name, title, rows, out, console, _lines(rows, "points", styles, "speed-up"), note)
     return rows
 
@@ -141,7 +151,7 @@ def batch(
     The paper, four processors: 3.36 to 3.84 for uniform data.
     """
     title = "Kohout et al. 2004, Figs 4-6: batch 3:1"
-    return _by_size("kohout-batch", title, "batch", BATCH, lambda _: 4, out, console, points, repeats)
+    return _by_size("kohout-batch", title, "batch", BATCH, out, console, points, repeats)
 
 
 def circumcircle(
@@ -152,9 +162,7 @@ def circumcircle(
     The paper, four processors: 3.21 to 3.93 for uniform data.
     """
     title = "Kohout et al. 2004, Figs 7-8: circum-circle"
-    return _by_size(
-        "kohout-circumcircle", title, "circumcircle", CIRCUMCIRCLE, lambda p: p, out, console, points, repeats
-    )
+    return _by_size("kohout-circumcircle", title, "circumcircle", CIRCUMCIRCLE, out, console, points, repeats)
 
 
 def arc(out: Path, console: Console, *, points: int | str = "1000,5000,10000", repeats: int = 3) -> list[Row]:
@@ -169,7 +177,7 @@ def arc(out: Path, console: Console, *, points: int | str = "1000,5000,10000", r
         row: Row = {"points": n}
         for method in ("batch", "circumcircle"):
             for elements in (2, 4):
-                threads = 4 if method == "batch" else elements
+                threads = threads_for(method, elements)
                 row[f"{method} {elements}"] = given.virtual(method, threads, elements)
                 row[f"{method} {elements}, uniform"] = plain.virtual(method, threads, elements)
         rows.append(row)
@@ -193,14 +201,17 @@ def subdivision(out: Path, console: Console, *, points: int = 50_000, seed: int 
         row: Row = {"elements": elements}
         for kind in ("random", "x-slabs", "distance"):
             row[kind] = given.virtual("circumcircle", elements, elements, kind)
-        row["batch"] = given.virtual("batch", max(4, elements), elements)
+        row["batch"] = given.virtual("batch", max(threads_for("batch", elements), elements), elements)
         row["optimistic"] = given.virtual("optimistic", elements, elements)
         row["paper"] = "random best" if elements == 2 else ("open" if elements > 4 else "")
         rows.append(row)
     styles = dict.fromkeys(("random", "x-slabs", "distance"), "o-") | dict.fromkeys(
         ("batch", "optimistic"), "^--"
     )
-    note = f"{points:,} uniform points; circum-circle by subdivision, the others at random. Virtual time."
+    note = (
+        f"{points:,} uniform points; circum-circle by subdivision, the others at random. Virtual time, "
+        "without that of sorting sites into slabs or rings."
+    )
     publish(
         "kohout-subdivision", "Kohout et al. 2004, Fig. 12: subdivision of the input", rows, out, console,
         _lines(rows, "elements", styles, "speed-up, virtual"), note,
@@ -211,15 +222,10 @@ def subdivision(out: Path, console: Console, *, points: int = 50_000, seed: int 
 def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int = 5) -> list[Row]:
     """Table 4: the methods compared, about 100,000 uniform points, on 2 and 4 elements."""
     given = _Set(sets.uniform(points), repeats)
-    processors = os.cpu_count() or 1
     rows: list[Row] = []
     for method, (two, four) in TABLE4.items():
-        threads = {p: 4 if method == "batch" else p for p in (2, 4, processors)}
-        row: Row = {"method": method, "paper 2": two, "paper 4": four}
-        row["virtual 2"] = given.virtual(method, threads[2], 2)
-        row["virtual 4"] = given.virtual(method, threads[4], 4)
+        row: Row = {"method": method, "paper 2": two, "paper 4": four} | given.row(method)
         row["off the paper's 4, %"] = 100 * (row["virtual 4"] / four - 1)
-        row["measured"] = given.measured(method, threads[processors])
         rows.append(row)
 
     def draw(axes: Any) -> None:
@@ -231,6 +237,6 @@ def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int =
         axes.set(ylabel="speed-up")
         axes.figure.legend(loc="outside upper center", ncols=5)
 
-    note = NOTE.format(processors=processors, repeats=repeats)
+    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
     publish("kohout-table4", "Kohout et al. 2004, Table 4: methods", rows, out, console, draw, note)
     return rows
