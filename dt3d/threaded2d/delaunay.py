@@ -49,7 +49,8 @@ class Delaunay:
         Of the batch method; by default it suits n (Table 1 of the paper).
     subdivision : "random", "x-slabs", "distance" or "curve"
         Which thread gets which sites: at random, slabs of the first coordinate, rings about the origin, or
-        stretches of the space-filling curve (with order="brio").
+        stretches of the space-filling curve (with order="brio"). A thread that is done takes of what others
+        have left.
     seed : int
         Of the random order and subdivision.
 
