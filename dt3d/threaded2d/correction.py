@@ -7,7 +7,7 @@ not needed any more.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -15,9 +15,10 @@ import numba
 import numpy as np
 
 from ..predicates.borrowed import borrowed
+from .atomics import load
 from .cavity import in_conflict
 from .prefetch import prefetch, prefetch_around
-from .store import CHILD, INFINITE, NEIGHBOR
+from .store import CHILD, INFINITE, NEIGHBOR, STOP, USED, Store
 from .threads import together
 
 AHEAD = 8  # leaves between asking for a leaf's surroundings and for what lies beyond them
@@ -78,13 +79,17 @@ def find_illegal(points, nodes, leaves, begin, end, found, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def flip_illegal(points, nodes, edges, w):
-    """Flip ``edges``, and those that get illegal thereby, until no edge is illegal; how many flips."""
-    points, nodes, w = borrowed(points), borrowed(nodes), borrowed(w)
+def flip_illegal(points, nodes, shared, edges, w):
+    """Flip ``edges``, and those that get illegal thereby, until no edge is illegal or all threads have to
+    stop; how many flips.
+
+    There may be quadratically many.
+    """
+    points, nodes, shared, w = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(w)
     top, flips = len(edges), 0
     stack = np.empty(2 * top + 4, np.int64)
     stack[:top] = edges
-    while top > 0:
+    while top > 0 and load(shared, (STOP, 0)) == 0:
         top -= 1
         t, k = stack[top] >> 2, stack[top] & 3
         if not _illegal(points, nodes, t, k, w):
@@ -102,11 +107,14 @@ def flip_illegal(points, nodes, edges, w):
     return flips
 
 
-def correct(points: np.ndarray, nodes: np.ndarray, used: int, works: Sequence[np.ndarray]) -> int:
+def correct(store: Store, works: Sequence[np.ndarray], stop: Callable[[], None]) -> int:
     """Flip edges until none is illegal; how many flips.
 
-    Illegal edges are looked for by as many threads as there are work arrays of the predicates.
+    Illegal edges are looked for by as many threads as there are work arrays of the predicates. ``stop`` sets
+    the store's `STOP`.
     """
+    points, nodes, shared = store.points, store.nodes, store.shared
+    used = int(shared[USED, 0])
     leaves = np.flatnonzero(nodes[:used, CHILD] < 0)
     bounds = [len(leaves) * k // len(works) for k in range(len(works) + 1)]
     found = [np.empty(3 * (end - begin), np.int64) for begin, end in pairwise(bounds)]
@@ -114,6 +122,7 @@ def correct(points: np.ndarray, nodes: np.ndarray, used: int, works: Sequence[np
     def task(k: int) -> int:
         return find_illegal(points, nodes, leaves, bounds[k], bounds[k + 1], found[k], works[k])
 
-    counts = together([partial(task, k) for k in range(len(works))], lambda: None)
+    counts = together([partial(task, k) for k in range(len(works))], stop)
     edges = np.concatenate([f[:count] for f, count in zip(found, counts, strict=True)])
-    return flip_illegal(points, nodes, edges, works[0])
+    (flips,) = together([partial(flip_illegal, points, nodes, shared, edges, works[0])], stop)
+    return int(flips)

@@ -210,10 +210,9 @@ class _Run:
 
     def correct(self) -> int:
         """Make up for swaps that were given up, if there can be any; how many were made."""
-        s = self.store
-        if not s.state[:, GIVEN_UP].any():
+        if not self.store.state[:, GIVEN_UP].any():
             return 0
-        return correct(s.points, s.nodes, int(s.shared[USED, 0]), self.work)
+        return correct(self.store, self.work, self.stop)
 
 
 def _statistics(run: _Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:

@@ -46,7 +46,7 @@ def test_edges_flipped_at_random_are_flipped_back(name, threads):
     rng = np.random.default_rng(0)
     edges = 4 * rng.choice(leaves, 200) + rng.integers(0, 3, 200)
     spoilt = _spoil(store.points, store.nodes, edges, works[0])
-    flips = correction.correct(store.points, store.nodes, used, works)
+    flips = correction.correct(store, works, lambda: None)
     assert (flips > 0) == (spoilt > 0)
     triangles, neighbors, _ = compact(store.nodes, used, rows)
     np.testing.assert_array_equal(canonical(triangles), want)

@@ -14,7 +14,6 @@ from ...threaded2d.correction import correct
 from ...threaded2d.costs import measure, prepared
 from ...threaded2d.delaunay import queue_for
 from ...threaded2d.plan import Options, triangulate
-from ...threaded2d.store import ROOTS
 from ...threaded2d.virtual import simulate
 from . import sets
 from .report import Row, publish
@@ -98,7 +97,7 @@ def _compiled(points: np.ndarray, options: Options) -> None:
     few = points[: min(500, len(points))]
     triangulate(few, options)
     store, _ = prepared(few, options)
-    correct(store.points, store.nodes, ROOTS, [work_array(store.points)])
+    correct(store, [work_array(store.points)], lambda: None)
 
 
 def _seconds(points: np.ndarray, options: Options) -> float:
