@@ -142,9 +142,7 @@ class Simulated(Machine):
             facts = jnp.append(facts, others)
         return place, facts, handled
 
-    def _charge(
-        self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]
-    ) -> None:
+    def _charge(self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]) -> None:
         messages, busiest, accesses, *others = loads
         if self.on_conflict == "raise" and accesses > 1:
             phase, operation = self.ledger.names(primitive)
