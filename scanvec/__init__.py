@@ -17,11 +17,14 @@ G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 
 # cost models, and their calibration
 from ._calibration import calibrate
+
+# exclusive access
+from ._conflict import ConcurrentAccessError, Conflict
 from ._connection_machines import CM2, CM5
 
 # machines, vectors and ledgers
 from ._device import Device
-from ._entry import Conflict, Entry, Row
+from ._entry import Entry, Row
 
 # scalars
 from ._front_end import extract, insert
@@ -52,7 +55,7 @@ from ._scan import (
     scan_inclusive,
 )
 from ._segments import Segments
-from ._simulated import ConcurrentAccessError, Simulated
+from ._simulated import Simulated
 
 # sorting and sets
 from ._sort import rank, segmented_sort, sort, union, unique

@@ -32,6 +32,8 @@ class Inputs(NamedTuple):
     order: sv.Vector  # a random permutation
     counts: sv.Vector  # 0, 1, 2, 0, ...; they add up to about n
     segments: sv.Segments  # of four elements
+    clear: sv.Vector  # those whose flag is clear, and those whose flag is set
+    set: sv.Vector
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,8 @@ def _make(
 
 CATALOGUE = (
     _make("v + w", "p-add and other elementwise instructions", lambda x: x.v + x.order, 1),
-    _make("map(where=)", "p-select", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
+    _make("select", "p-select", lambda x: sv.select(x.flags, x.v, x.order), 1),
+    _make("map(where=)", "-", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
     _make("iota", "index", lambda x: x.v.machine.iota(len(x.v)), 1),
     _make("permute", "permute", lambda x: sv.permute(x.v, x.order), 1),
     _make("get", "permute, backwards; concurrent read", lambda x: sv.get(x.v, x.order), 1),
@@ -88,9 +91,13 @@ CATALOGUE = (
     _make("enumerate", "enumerate", lambda x: sv.enumerate(x.flags), 2),
     _make("reduce", "+-reduce", lambda x: sv.reduce(x.v, sv.ADD), 1),
     _make("reduce(segments)", "seg-+-reduce", lambda x: sv.reduce(x.v, sv.ADD, x.segments), 5, _at_most_all),
+    _make("op_distribute", "+-distribute", lambda x: sv.op_distribute(x.v, sv.ADD), 2),
     _make("pack", "pack", lambda x: sv.pack(x.v, x.flags), 4),
     _make("pack_index", "pack of index", lambda x: sv.pack_index(x.flags), 5),
     _make("split", "split", lambda x: sv.split(x.v, x.flags), 5),
+    _make("split(segments)", "seg-split", lambda x: sv.split(x.v, x.flags, x.segments), 7),
+    _make("flag_merge", "flag-merge", lambda x: sv.flag_merge(x.clear, x.set, x.flags), 7),
+    _make("insert", "insert", lambda x: sv.insert(x.v, 0, 1), 1),
     _make("append", "append", lambda x: sv.append(x.v, x.v), 5, _up_to_twice),
     _make("distribute", "distribute, allocate", lambda x: sv.distribute(x.v, x.counts), 12, _up_to_twice),
     Primitive("rank", "rank", lambda x: sv.rank(x.v), lambda bits: 7 + 6 * bits, _each_step_all),
@@ -124,12 +131,15 @@ def measurements(sizes: tuple[int, ...] = SIZES) -> Iterator[Measurement]:
         cm = sv.Simulated(PROCESSORS, model=sv.SCAN)
         values = rng.integers(0, 16, n).astype(np.int32)
         values[:2] = 0, 15
+        flags = np.arange(n) % 3 == 1
         inputs = Inputs(
             cm.vector(values),
-            cm.vector(np.arange(n) % 3 == 1),
+            cm.vector(flags),
             cm.vector(rng.permutation(n).astype(np.int32)),
             cm.vector((np.arange(n) % 3).astype(np.int32)),
             sv.Segments.from_lengths(cm.full(n // 4, 4, np.int32)),
+            cm.vector(values[~flags]),
+            cm.vector(values[flags]),
         )
         differ = int(np.bitwise_or.reduce(values ^ values[0])).bit_count()
         for primitive in CATALOGUE:
