@@ -76,13 +76,13 @@ def _make(
 
 
 CATALOGUE = (
-    _make("v + w", "p-add and other elementwise instructions", lambda x: x.v + x.order, 1),
+    _make("v + w", "p-+, p-<, ...", lambda x: x.v + x.order, 1),
     _make("select", "p-select", lambda x: sv.select(x.flags, x.v, x.order), 1),
     _make("map(where=)", "-", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
     _make("iota", "index", lambda x: x.v.machine.iota(len(x.v)), 1),
     _make("permute", "permute", lambda x: sv.permute(x.v, x.order), 1),
-    _make("get", "permute, backwards; concurrent read", lambda x: sv.get(x.v, x.order), 1),
-    _make("send", "combining permute; concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
+    _make("get", "concurrent read", lambda x: sv.get(x.v, x.order), 1),
+    _make("send", "concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
     _make("scan(ADD)", "+-scan", lambda x: sv.scan(x.v, sv.ADD), 1),
     _make("scan(MAX)", "max-scan", lambda x: sv.scan(x.v, sv.MAX), 1),
     _make("scan(segments)", "seg-+-scan", lambda x: sv.scan(x.v, sv.ADD, x.segments), 1),
@@ -162,15 +162,10 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
         found = list(measurements())
     largest = SIZES[-1]
     table = Table(title=f"Steps and elements of {largest:,} elements on {PROCESSORS} processors")
-    for column in (
-        "scanvec",
-        "Blelloch 1990",
-        "steps: stated / counted",
-        "elements / n",
-        "VP steps / step",
-        "holds",
-    ):
-        table.add_column(column, justify="left" if column in ("scanvec", "Blelloch 1990") else "right")
+    for column in ("scanvec", "Blelloch 1990"):
+        table.add_column(column, no_wrap=True)
+    for column in ("steps: stated / counted", "elements / n", "VP steps / step", "holds"):
+        table.add_column(column, justify="right")
     for m in found:
         if m.n == largest:
             table.add_row(
@@ -196,14 +191,31 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
             for m in found
         ],
     )
-    figure, axes = panels(2, 6.0)
-    for primitive in CATALOGUE:
-        own = [m for m in found if m.primitive is primitive]
-        axes[0].loglog([m.n for m in own], [m.row.elements for m in own], "-", label=primitive.name)
-        axes[1].semilogx([m.n for m in own], [m.row.steps for m in own], "-", label=primitive.name)
-    axes[0].set(xlabel="n", ylabel="elements")
-    axes[1].set(xlabel="n", ylabel="steps")
-    axes[1].legend(fontsize=5, ncols=2)
-    figure.savefig(out / "primitives.png", dpi=120)
+    _draw(found, out / "primitives.png")
     wrote(console, out, "primitives")
     return found
+
+
+def _draw(found: list[Measurement], path: Path) -> None:
+    """A row for each operation: its steps, stated and counted, and its elements over n at every size."""
+    figure, (left, right) = panels(2, 4.5)
+    figure.set_figheight(1 + 0.21 * len(CATALOGUE))
+    largest = [m for m in found if m.n == SIZES[-1]]
+    row = {m.primitive.name: k for k, m in enumerate(largest)}
+    left.barh(list(row.values()), [m.row.steps for m in largest], color="tab:blue", label="counted")
+    left.plot([m.stated_steps for m in largest], list(row.values()), "k|", ms=9, mew=2, label="stated")
+    for n, colour in zip(SIZES, ("0.8", "0.6", "0.4", "0.2", "tab:orange"), strict=True):
+        own = [m for m in found if m.n == n]
+        x, y = [m.row.elements / n for m in own], [row[m.primitive.name] for m in own]
+        right.plot(x, y, "o", ms=9 - 1.4 * SIZES.index(n), color=colour, label=f"n = {n:,}")
+    left.set(title=f"steps, n = {SIZES[-1]:,}", xscale="log", xlim=(0.8, None))
+    right.set(title="elements / n", xscale="log", xlim=(0.8, None))
+    for ax, names in ((left, list(row)), (right, [])):
+        ax.set_yticks(range(len(names)) if names else [], names, fontsize=8)
+        ax.set_ylim(len(row) - 0.5, -0.5)
+        ax.grid(axis="x", color="0.9")
+        ax.set_axisbelow(True)
+        ax.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
+        ax.minorticks_off()
+        ax.legend(fontsize=8, loc="upper right")
+    figure.savefig(path, dpi=120)

@@ -57,8 +57,8 @@ def test_calibration_meets_the_times_that_it_is_given(small_ledgers):
     for row in RANDOM[:3]:
         assert ledgers[row.name].under(model).seconds == pytest.approx(row.seconds, rel=0.25)
     assert {n: c.origin for n, c in model.constants.items()} == {
-        "issue": "calibrated", "element": "calibrated", "message": "sourced", "byte": "sourced",
-        "byte_within_16": "sourced", "combine": "sourced",
+        "issue": "calibrated", "element": "calibrated", "route": "calibrated", "packet": "sourced",
+        "packet_bytes": "sourced", "combine": "sourced",
     }  # fmt: skip
     assert "rand.125, rand.250, rand.500 on 32 nodes" in model.constants["issue"].source
     with pytest.raises(ValueError, match="at least 3 of Table 1's random sets, got 1"):
@@ -74,7 +74,7 @@ def test_predictions_of_other_nodes(small_ledgers, monkeypatch):
     for c in cells:
         assert c.predicted == small_ledgers["rand.500"][c.nodes].under(model).seconds
         assert c.predicted_speedup == cells[0].predicted / c.predicted
-    # free messages leave more to elements, which are shared out better
+    # free packets leave more to elements, which are shared out better
     _, free = module.predict(small_ledgers, 0.0)
     assert free[2].predicted_speedup > cells[2].predicted_speedup
 
@@ -177,11 +177,8 @@ def test_table2_predicts_the_papers_times(tmp_path, console):
     cells = table2(tmp_path, console)
     assert len(cells) == sum(map(len, TABLE2.values()))
     for c in cells:
-        assert abs(c.speedup_off) <= 0.20
-        # what misses is named on the screen: see README
-        if not c.calibrated and (c.name, c.nodes) != ("rand.4000", 128):
-            assert c.holds
-    assert "Not all within" in console.export_text()
+        assert c.calibrated or c.holds
+    assert "All within 25% (seconds) and 20% (speed-ups)" in console.export_text()
 
 
 @pytest.mark.slow
