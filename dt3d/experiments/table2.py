@@ -215,8 +215,15 @@ def _draw(cells: list[Cell], path: Path) -> None:
         axes[0].loglog(nodes, [c.predicted for c in own], "o-", color=colour, label=f"{name}, model")
         axes[1].plot(nodes, [c.paper_speedup for c in own], "s--", color=colour)
         axes[1].plot(nodes, [c.predicted_speedup for c in own], "o-", color=colour)
+    nodes = sorted({c.nodes for c in cells})
+    axes[1].plot(nodes, [n / PROCESSORS for n in nodes], ":", color="0.6", label="linear")
     axes[0].set(title="seconds", xlabel="nodes")
-    axes[1].set(title="speed-up over 32 nodes", xlabel="nodes")
+    axes[0].set_yticks([10, 20, 50, 100, 200], ["10", "20", "50", "100", "200"])
+    axes[1].set(title=f"speed-up over {PROCESSORS} nodes", xlabel="nodes", xscale="log")
+    for ax in axes:
+        ax.set_xticks(nodes, [str(n) for n in nodes])
+        ax.minorticks_off()
     if cells:
         axes[0].legend()
+        axes[1].legend()
     figure.savefig(path, dpi=120)

@@ -164,6 +164,19 @@ def test_machines_reuse_one_run():
     assert ledgers[16].under(sv.CRCW_PRAM).seconds > ledgers[16].under(sv.SCAN).seconds
 
 
+@pytest.mark.slow
+def test_many_processors_find_what_a_device_does():
+    points = points_of("rand.2000")
+    options = {"method": "extrapolation", "robustness": "perturb"}
+    many, few = sv.Simulated(16384, model=sv.CM2), sv.Simulated(32, model=sv.CM2, also=[16384])
+    one, *others = (dt3d.Delaunay(points, machine=m, **options) for m in (sv.Device(), few, many))
+    for other in others:
+        for array in ("simplices", "neighbors", "convex_hull", "iteration"):
+            np.testing.assert_array_equal(getattr(other, array), getattr(one, array))
+    # and the loads that the smaller machine counts for the larger one are those of its own run
+    assert few.ledgers[16384].entries == many.ledger.entries
+
+
 def test_primitives_take_what_they_state():
     module = sys.modules["dt3d.experiments.primitives"]
     found = list(module.measurements((16, 128, 1000)))
