@@ -18,7 +18,7 @@ from ..extrapolation import normalise
 from ..extrapolation.points import Point
 from ..extrapolation.signed_distance import frame, signed_distance
 from . import calibration
-from ._output import panels, print_model, write_csv, wrote
+from ._output import new_table, panels, print_model, write_csv, wrote
 from .paper import BREAK_EVEN, PROCESSORS, RANDOM
 from .runs import MAIN_LOOP, SEED, cm5, points_of
 
@@ -123,8 +123,6 @@ def figure2(
     Predicted by the CM-5 model, calibrated to the paper's times with bucketing. Writes ``figure2.csv`` and
     ``figure2.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     sizes = []
     with console.status("...") as status:
@@ -133,9 +131,11 @@ def figure2(
                 status.update(f"{row.name} ...")
                 sizes.append(run(row.sites, seed, brute_force=row.sites <= MOST_BY_BRUTE_FORCE))
     model = calibration.calibrated({f"rand.{s.sites}": s.bucketing for s in sizes})
-    table = Table(title=f"Teng et al. 1993, Figure 2: seconds on a CM-5 of {PROCESSORS} nodes")
-    for column in ("sites", "bucketing, paper", "bucketing, model", "brute force, model"):
-        table.add_column(column, justify="right")
+    table = new_table(
+        f"Teng et al. 1993, Figure 2: seconds on a CM-5 of {PROCESSORS} nodes",
+        (),
+        ("sites", "bucketing, paper", "bucketing, model", "brute force, model"),
+    )
     lines: list[list[Any]] = []
     for s in sizes:
         brute = None if s.brute_force is None else s.brute_force.under(model).seconds

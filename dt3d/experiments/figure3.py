@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 from .paper import MOST_BY_ITERATION, RANDOM
 from .runs import SEED, Measured, measure, points_of
 
@@ -22,9 +22,6 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
     Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv`` and
     ``figure3.png`` into ``out``.
     """
-    from rich.box import SIMPLE
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     found: dict[str, Measured] = {}
     with console.status("...") as status:
@@ -32,12 +29,11 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
             if row.sites <= most_sites:
                 status.update(f"{row.name} ...")
                 found[row.name] = measure(points_of(row.name, seed), sv.Device())
-    table = Table(
-        title="Teng et al. 1993, Figure 3: tetrahedra found in each iteration, by sites (ours)", box=SIMPLE
+    table = new_table(
+        "Teng et al. 1993, Figure 3: tetrahedra found in each iteration, by sites (ours)",
+        ("iteration",),
+        (name.removeprefix("rand.") for name in found),
     )
-    table.add_column("iteration")
-    for name in found:
-        table.add_column(name.removeprefix("rand."), justify="right")
     longest = max(len(m.per_iteration) for m in found.values())
     for k in range(longest):
         news = [str(m.per_iteration[k]) if k < len(m.per_iteration) else "" for m in found.values()]

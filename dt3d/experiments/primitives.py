@@ -15,7 +15,7 @@ import numpy as np
 
 import scanvec as sv
 
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -155,17 +155,15 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
 
     Writes ``primitives.csv`` and ``primitives.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     with console.status("..."):
         found = list(measurements())
     largest = SIZES[-1]
-    table = Table(title=f"Steps and elements of {largest:,} elements on {PROCESSORS} processors")
-    for column in ("scanvec", "Blelloch 1990"):
-        table.add_column(column, no_wrap=True)
-    for column in ("steps: stated / counted", "elements / n", "VP steps / step", "holds"):
-        table.add_column(column, justify="right")
+    table = new_table(
+        f"Steps and elements of {largest:,} elements on {PROCESSORS} processors",
+        ("scanvec", "Blelloch 1990"),
+        ("steps: stated / counted", "elements / n", "VP steps / step", "holds"),
+    )
     for m in found:
         if m.n == largest:
             table.add_row(

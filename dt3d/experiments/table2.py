@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import scanvec as sv
 
 from . import calibration
-from ._output import off, panels, print_model, write_csv, wrote
+from ._output import new_table, off, panels, print_model, write_csv, wrote
 from .paper import PROCESSORS, RANDOM, TABLE2
 from .runs import SEED, cm5, measure, paper_row, points_of
 
@@ -118,15 +118,15 @@ def table2(out: Path, console: Console, *, most_sites: int = 16000, seed: int = 
     Also says which predictions miss, and what hangs on single rows of Table 1 and on the time of a packet.
     Writes ``table2.csv`` and ``table2.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     with console.status("...") as status:
         measured = loads(most_sites=most_sites, seed=seed, on_set=lambda name: status.update(f"{name} ..."))
     model, cells = predict(measured)
-    table = Table(title="Teng et al. 1993, Table 2: paper / model calibrated to Table 1 (32 nodes)")
-    for column in ("set", "nodes", "seconds", "off", "speed-up", "off", "holds"):
-        table.add_column(column, justify="left" if column == "set" else "right")
+    table = new_table(
+        "Teng et al. 1993, Table 2: paper / model calibrated to Table 1 (32 nodes)",
+        ("set",),
+        ("nodes", "seconds", "off", "speed-up", "off", "holds"),
+    )
     for c in cells:
         table.add_row(
             c.name,
@@ -157,8 +157,6 @@ def _verdict(
     spans: list[tuple[float, float]],
     console: Console,
 ) -> None:
-    from rich.table import Table
-
     missed = [c for c in cells if not c.calibrated and not c.holds]
     bounds = f"{TIME_BOUND:.0%} (seconds) and {SPEEDUP_BOUND:.0%} (speed-ups)"
     if missed:
@@ -166,17 +164,18 @@ def _verdict(
         console.print(f"Not all within {bounds}: {which}.")
     else:
         console.print(f"All within {bounds}.")
-    table = Table(title="What is left open: the microseconds of a packet, and any row of Table 1")
-    names = [f"{c.name} on {c.nodes}" for c in cells if not c.calibrated]
-    for column in ("us", *names, "all hold"):
-        table.add_column(column, justify="right")
+    table = new_table(
+        "What is left open: the microseconds of a packet, and any row of Table 1",
+        ("packet",),
+        (*(f"{c.name} on {c.nodes}" for c in cells if not c.calibrated), "all hold"),
+    )
     for packet, found in tried:
         predicted = [c for c in found if not c.calibrated]
         texts = [f"{c.predicted:.1f} s, {c.predicted_speedup:.2f}" for c in predicted]
-        table.add_row(f"{1e6 * packet:.0f}", *texts, "yes" if all(c.holds for c in predicted) else "no")
+        table.add_row(f"{1e6 * packet:.0f} us", *texts, "yes" if all(c.holds for c in predicted) else "no")
     texts = [f"{a:.1f}-{b:.1f} s" for c, (a, b) in zip(cells, spans, strict=False) if not c.calibrated]
     if texts:
-        table.add_row(f"{1e6 * sv.CM5.values['packet']:.0f}, a row left out", *texts, "")
+        table.add_row("a row less", *texts, "")
     console.print(table)
     console.print(
         "The constants are fitted to Table 1 only, but the model's form was chosen with Table 2 in sight: "

@@ -16,7 +16,7 @@ from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
 from ..extrapolation import normalise, perturb, triangulate
 from ..extrapolation.perturbation import MAGNITUDE
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 from .paper import TABLE3, TOO_MANY
 from .runs import SEED, points_of
 
@@ -80,8 +80,6 @@ def table3(
 
     Random sets differ, so others are tried too. Writes ``table3.csv`` and ``table3.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     outcomes: dict[str, dict[str, Outcome]] = {}
     others: dict[str, list[Outcome]] = {}
@@ -94,9 +92,11 @@ def table3(
             outcomes[name] = {mode: attempt(points, mode) for mode in MODES}
             more = range(1, other_sets + 1) if name.startswith("rand.") else ()
             others[name] = [attempt(points_of(name, seed + k), SAME) for k in more]
-    table = Table(title="Teng et al. 1993, Table 3: inconsistencies, paper / ours")
-    for column in ("set", "single", "other sets", "single, larger perturbation", "double", "exact"):
-        table.add_column(column, justify="left" if column == "set" else "right")
+    table = new_table(
+        "Teng et al. 1993, Table 3: inconsistencies, paper / ours",
+        ("set",),
+        ("single", "other sets", "single, larger perturbation", "double", "exact"),
+    )
     for name, by_mode in outcomes.items():
         table.add_row(
             name,
