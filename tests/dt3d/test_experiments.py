@@ -60,7 +60,7 @@ def test_calibration_meets_the_times_that_it_is_given(small_ledgers):
         "issue": "calibrated", "element": "calibrated", "route": "calibrated", "packet": "sourced",
         "packet_bytes": "sourced", "combine": "sourced",
     }  # fmt: skip
-    assert "rand.125, rand.250, rand.500 on 32 nodes" in model.constants["issue"].source
+    assert "3 random sets, rand.125 to rand.500, on 32 nodes" in model.constants["issue"].source
     with pytest.raises(ValueError, match="at least 3 of Table 1's random sets, got 1"):
         calibration.calibrated({"rand.125": ledgers["rand.125"], "cube": ledgers["rand.125"]})
 
