@@ -18,11 +18,11 @@ def test_the_experiment_of_ones_own(tmp_path, monkeypatch, capsys):
         exec(program, names)
     assert len(programs) == 2
     assert np.array_equal(names["ranks"].to_numpy()[names["order"]], np.arange(4096)[::-1])
-    # what the page says: in the last round one processor answers nearly all, and more nodes do not help
+    # what the page says: in the last round one processor answers nearly all, and more nodes help little
     rounds = names["cm5"].ledger.by_iteration("jump")
     assert rounds[-1].busiest > 3500 > 10 * rounds[0].busiest
     times = [ledger.seconds for ledger in names["cm5"].ledgers.values()]
-    assert times[-1] > times[0] / 2
+    assert times[0] > times[1] > times[2] > times[0] / 2.5
     assert names["pram"].ledger.conflicts[0].phase == "jump"
     assert "steps are not exclusive; the first: step" in capsys.readouterr().out
     assert len((tmp_path / "steps.csv").read_text().splitlines()) == names["cm5"].ledger.steps + 1

@@ -218,7 +218,8 @@ def _draw(cells: list[Cell], path: Path) -> None:
     axes[1].plot(nodes, [n / PROCESSORS for n in nodes], ":", color="0.6", label="linear")
     axes[0].set(title="seconds", xlabel="nodes")
     axes[0].set_yticks([10, 20, 50, 100, 200], ["10", "20", "50", "100", "200"])
-    axes[1].set(title=f"speed-up over {PROCESSORS} nodes", xlabel="nodes", xscale="log")
+    axes[1].set(title=f"speed-up over {PROCESSORS} nodes", xlabel="nodes", xscale="log", yscale="log")
+    axes[1].set_yticks([1, 2, 4, 8], ["1", "2", "4", "8"])
     for ax in axes:
         ax.set_xticks(nodes, [str(n) for n in nodes])
         ax.minorticks_off()
