@@ -22,7 +22,7 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) 
 
 
 def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table:
-    """A table with columns of texts, which are never cut, and of numbers."""
+    """A table with columns of texts and of numbers, none of which is cut where a screen is narrow."""
     from rich.box import SIMPLE
     from rich.table import Table
 
@@ -30,7 +30,7 @@ def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table
     for column in texts:
         table.add_column(column, no_wrap=True)
     for column in numbers:
-        table.add_column(column, justify="right")
+        table.add_column(column, justify="right", overflow="fold")
     return table
 
 

@@ -94,7 +94,7 @@ def _print(measured: list[Row], console: Console, seed: int) -> None:
     table = new_table(
         f"Teng et al. 1993, Table 1: paper / ours ({PROCESSORS} simulated processors, float64)",
         ("set",),
-        ("tetrahedra", "diff", "depth", "expansions", "a tetrahedron", "searched"),
+        ("tetrahedra", "diff %", "depth", "expansions", "a tetrahedron", "searched"),
     )
     spread = new_table(
         f"Random sets of {len(measured[0].others)} and fewer other seeds: mean ± deviation",
@@ -106,7 +106,7 @@ def _print(measured: list[Row], console: Console, seed: int) -> None:
         table.add_row(
             p.name,
             f"{p.tetrahedra} / {o.tetrahedra}",
-            f"{100 * off(o.tetrahedra, p.tetrahedra):+.2f} %",
+            f"{100 * off(o.tetrahedra, p.tetrahedra):+.2f}",
             f"{p.depth} / {o.depth}",
             f"{p.face_expansions} / {o.face_expansions}",
             f"{p.per_tetrahedron:.3f} / {o.per_tetrahedron:.3f}",
