@@ -11,7 +11,7 @@ import dt3d
 import scanvec as sv
 from dt3d.experiments import EXPERIMENTS, calibration, sets, table2
 from dt3d.experiments.balance import SCHEMES, Work, shares, work
-from dt3d.experiments.figure2 import MOST_BY_BRUTE_FORCE, break_even, exhaustive, figure2, run
+from dt3d.experiments.figure2 import break_even, exhaustive, figure2, run
 from dt3d.experiments.figure3 import figure3
 from dt3d.experiments.machines import MODELS
 from dt3d.experiments.machines import run as run_machines
@@ -196,7 +196,7 @@ def test_table2_predicts_the_papers_times(tmp_path, console):
 
 @pytest.mark.slow
 def test_figure2_breaks_even_near_the_papers_point(tmp_path, console):
-    _, crossing = figure2(tmp_path, console, most_sites=MOST_BY_BRUTE_FORCE)
+    _, crossing = figure2(tmp_path, console)
     assert BREAK_EVEN / 2 <= crossing <= 2 * BREAK_EVEN
 
 
