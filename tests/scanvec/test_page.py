@@ -1,4 +1,4 @@
-"""The programs in the documentation run, and the names that it lists exist."""
+"""The programs on the simulator's page run, and the names that it lists exist."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,7 @@ import numpy as np
 
 import scanvec as sv
 
-PAGE = (Path(__file__).parents[1] / "docs" / "simulator.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "scanvec" / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_experiment_of_ones_own(tmp_path, monkeypatch, capsys):
