@@ -6,6 +6,7 @@ Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C 
 from __future__ import annotations
 
 import inspect
+import logging
 import os
 import sys
 import warnings
@@ -47,6 +48,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     def one_line(message: Warning | str, *_: Any, **__: Any) -> None:
         errors.print(f"dt3d: warning: {message}", markup=False)
 
+    log = logging.getLogger("dt3d")
+    lines = _Lines(errors)
+    log.addHandler(lines)
     try:
         with warnings.catch_warnings():
             warnings.showwarning = one_line
@@ -64,7 +68,20 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (ValueError, OSError, ImportError, dt3d.InconsistencyError) as error:
         errors.print(f"dt3d: {error}", markup=False)
         return 2
+    finally:
+        log.removeHandler(lines)
     return 0
+
+
+class _Lines(logging.Handler):
+    """Prints what is logged as single lines."""
+
+    def __init__(self, console: Console) -> None:
+        super().__init__()
+        self.console = console
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.console.print(f"dt3d: {record.getMessage()}", markup=False)
 
 
 @app.command

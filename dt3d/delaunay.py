@@ -146,8 +146,10 @@ class Delaunay:
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
     ) -> None:
+        from ._compiling import announce_compilation
         from .insertion import triangulate
 
+        announce_compilation()
         stretches = itertools.count(1)
         outcome = triangulate(
             exactly_scaled(self.points),
