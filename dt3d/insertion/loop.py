@@ -48,16 +48,16 @@ def triangulate(
     """Triangulate sites, float64 (n, 3), exactly.
 
     ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
-    greatest coordinate is about 1. With ``threads`` of None there are as many as cores, or fewer where more
-    do not pay.
+    greatest coordinate is about 1. There are at most as many threads as cores, since threads that never wait
+    for each other gain nothing from taking turns; with ``threads`` of None also fewer where more do not pay.
 
     Raises
     ------
     DegenerateInputError
         If the sites span no volume.
     """
-    if threads is None:
-        threads = max(1, min(available_cores(), len(sites) // (8 * LEAST_PIECE)))
+    most = max(1, len(sites) // (8 * LEAST_PIECE)) if threads is None else threads
+    threads = min(most, available_cores())
     n = 0
     reported = 0
 
