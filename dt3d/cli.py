@@ -314,7 +314,8 @@ def bench(
     """
     from . import bench as benchmark
 
-    console = Console(highlight=False)
+    # a table in a file need not be as narrow as a terminal
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else 110)
     sets = [benchmark.generated(name, round(n)) for name in distributions for n in sizes]
     sets += [benchmark.from_file(path) for path in file]
     if against is None:

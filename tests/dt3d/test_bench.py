@@ -144,9 +144,9 @@ def test_files_and_table(tmp_path):
     console = Console(file=io.StringIO(), width=120)
     console.print(table(rows))
     lines = [[cell.strip() for cell in line.split("│")[4:-1]] for line in console.file.getvalue().split("\n")]
-    assert ["0.2", "1.00", "0.01", "200", "yes", "3"] in lines
-    assert ["2", "10.00", "0.00", "200", "NO", "1, > 60 s"] in lines
-    assert ["crashed", "", "", "", "", "0"] in lines
+    assert ["0.2", "1.00", "2,000", "0.01", "200", "yes", "3"] in lines
+    assert ["2", "10.00", "2,000", "0.00", "200", "NO", "1, > 60 s"] in lines
+    assert ["crashed", "", "", "", "", "", "0"] in lines
 
 
 def test_command(tmp_path, capsys):
