@@ -30,15 +30,20 @@ def canonical(
         odd ^= columns[i] > columns[j]
         columns[i], columns[j] = np.minimum(columns[i], columns[j]), np.maximum(columns[i], columns[j])
     columns[2], columns[3] = np.where(odd, columns[3], columns[2]), np.where(odd, columns[2], columns[3])
-    vertices = [c >> 2 for c in columns]
-    order = _order(*vertices[:3])
+    order = _order(*(c >> 2 for c in columns[:3]))
+    rows = np.stack([c >> 2 for c in columns], axis=1)
+    sides = np.ascontiguousarray(neighbors.T)
+    # np.choose would do, more slowly
+    turned = np.stack([_chosen(c & 3, sides) for c in columns], axis=1)
     place = np.empty(len(order) + 1, np.int32)
     place[order] = np.arange(len(order), dtype=np.int32)
     place[-1] = -1  # where there is no neighbor
-    rows = np.stack([v[order] for v in vertices], axis=1)
-    beside = place[neighbors]
-    ordered = np.stack([beside[order, c[order] & 3] for c in columns], axis=1)
-    return rows, ordered, iteration[order]
+    return np.take(rows, order, axis=0), place[np.take(turned, order, axis=0)], iteration[order]
+
+
+def _chosen(k: np.ndarray, values: np.ndarray) -> np.ndarray:
+    low = np.where(k & 1, values[1], values[0])
+    return np.where(k & 2, np.where(k & 1, values[3], values[2]), low)
 
 
 def _order(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:

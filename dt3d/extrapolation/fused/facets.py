@@ -8,7 +8,7 @@ again and stay until the table is made anew.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -18,7 +18,9 @@ from .expand import at
 
 EMPTY = 2**31 - 1
 ABSENT = -1
-SLOTS_PER_FACET = 2  # at least
+TURNS_OF_ALL = 2
+FEW = 8  # one in so many goes on at a time,
+TURNS_OF_FEW = 4  # so many turns
 
 
 def ascending(a: Any, b: Any, c: Any) -> tuple[Any, Any, Any]:
@@ -43,26 +45,20 @@ def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any
     """The half-face of each facet, or `ABSENT`; and the slot where the search ended."""
     slots = len(table)
 
-    def turn(state: Any) -> Any:
-        slot, found, searching = state
-        entry = at(table, slot)
+    def turn(shared: None, probe: Probe) -> tuple[None, Probe]:
+        entry = jax.lax.optimization_barrier(at(table, probe.slot))
         taken = entry != EMPTY
-        other = facet_of(corners, jnp.where(taken, entry, 0))
-        same = taken
-        for x, y in zip(facet, other, strict=True):
-            same &= x == y
-        same &= searching
-        going = searching & taken & ~same
-        return (
-            jnp.where(going, (slot + 1) & (slots - 1), slot),
-            jnp.where(same, entry, found),
-            going,
+        same = jax.lax.optimization_barrier(taken & _names(probe.facet, corners, entry, taken))
+        going = probe.waiting & taken & ~same
+        slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
+        return shared, probe._replace(
+            slot=slot, found=jnp.where(probe.waiting & same, entry, probe.found), waiting=going
         )
 
     slot = first_slot(facet, slots)
-    state = slot, jnp.full_like(slot, ABSENT), active
-    slot, found, _ = jax.lax.while_loop(lambda s: jnp.any(s[2]), turn, state)
-    return found, slot
+    probe = Probe(facet, slot, slot, jnp.full_like(slot, ABSENT), active)
+    _, probe = _until_done(turn, None, probe)
+    return probe.found, probe.slot
 
 
 def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: Any) -> tuple[Any, Any]:
@@ -72,24 +68,57 @@ def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: A
     """
     slots = len(table)
 
-    def turn(state: Any) -> Any:
-        table, slot, twin, waiting = state
-        free = waiting & (at(table, slot) == EMPTY)
-        table = table.at[jnp.where(free, slot, slots)].min(half, mode="drop")
-        entry = at(table, slot)
-        mine = entry == half
-        other = facet_of(corners, jnp.where(entry != EMPTY, entry, 0))
-        same = waiting & ~mine
-        for x, y in zip(facet, other, strict=True):
-            same &= x == y
-        waiting = waiting & ~mine & ~same
-        return (
-            table,
-            jnp.where(waiting, (slot + 1) & (slots - 1), slot),
-            jnp.where(same, entry, twin),
-            waiting,
+    def turn(table: Any, probe: Probe) -> tuple[Any, Probe]:
+        free = probe.waiting & (at(table, probe.slot) == EMPTY)
+        table = table.at[jnp.where(free, probe.slot, slots)].min(probe.half, mode="drop")
+        entry = jax.lax.optimization_barrier(at(table, probe.slot))
+        mine = entry == probe.half
+        same = _names(probe.facet, corners, entry, entry != EMPTY)
+        same = jax.lax.optimization_barrier(same & probe.waiting & ~mine)
+        going = probe.waiting & ~mine & ~same
+        slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
+        return table, probe._replace(slot=slot, found=jnp.where(same, entry, probe.found), waiting=going)
+
+    table, probe = _until_done(turn, table, Probe(facet, half, slot, jnp.full_like(half, ABSENT), active))
+    return table, probe.found
+
+
+class Probe(NamedTuple):
+    """Facets that look for their slots."""
+
+    facet: Any
+    half: Any
+    slot: Any
+    found: Any
+    waiting: Any
+
+
+def _names(facet: Any, corners: Any, entry: Any, taken: Any) -> Any:
+    other = facet_of(corners, jnp.where(taken, entry, 0))
+    return (facet[0] == other[0]) & (facet[1] == other[1]) & (facet[2] == other[2])
+
+
+def _until_done(turn: Any, shared: Any, probe: Probe) -> tuple[Any, Probe]:
+    """Turns of all, then of those that still wait, packed together: few wait for long."""
+    size = len(probe.slot)
+    few = -(-size // FEW)
+    for _ in range(TURNS_OF_ALL):
+        shared, probe = turn(shared, probe)
+
+    def again(state: Any) -> Any:
+        shared, probe = state
+        place = jnp.cumsum(probe.waiting, dtype=jnp.int32)
+        target = jnp.where(probe.waiting & (place <= few), place - 1, few)
+        lane = jnp.full(few, size, jnp.int32).at[target].set(jnp.arange(size, dtype=jnp.int32), mode="drop")
+        there = jnp.minimum(lane, size - 1)
+        part = jax.tree.map(lambda x: at(x, there), probe)
+        part = part._replace(waiting=part.waiting & (lane < size))
+        for _ in range(TURNS_OF_FEW):
+            shared, part = turn(shared, part)
+        return shared, probe._replace(
+            slot=probe.slot.at[lane].set(part.slot, mode="drop"),
+            found=probe.found.at[lane].set(part.found, mode="drop"),
+            waiting=probe.waiting.at[lane].set(part.waiting, mode="drop"),
         )
 
-    state = table, slot, jnp.full_like(half, ABSENT), active
-    table, _, twin, _ = jax.lax.while_loop(lambda s: jnp.any(s[3]), turn, state)
-    return table, twin
+    return jax.lax.while_loop(lambda state: jnp.any(state[1].waiting), again, (shared, probe))

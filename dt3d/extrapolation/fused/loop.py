@@ -44,8 +44,8 @@ from .wide import Rows, expand_widely
 from .windows import SITES_PER_CELL, cells_of, even, grid_of, windows_of
 
 FEWEST_SITES = 2000  # for fewer, compiling these steps takes longer than all else
-SMALLEST = 2048  # sites that arrays are made for, at least
-WIDEST_WAVE = 2**15
+SMALLEST = 8192  # sites that arrays are made for, at least
+WIDEST_WAVE = 2**13
 CHUNK = 2048  # faces whose data fit into a core's cache
 WIDE_CHUNK = 512
 # The stages of a face: its window, wide searches of more and more turns, ties, and the general code.
@@ -187,7 +187,7 @@ class Triangulation:
         expansion, searched = self._expand(stage, batch)
         self._add("face expansion" if stage == 0 else f"stage {stage}", begin)
         begin = time.perf_counter()
-        self.mesh, facts = attach(self.mesh, batch, expansion)
+        self.mesh, facts = attach(self.mesh, batch, expansion, min(CHUNK, self.width))
         after, self.fresh, self.tail, contradictions, *statuses = np.asarray(facts).tolist()
         if stage:
             self.waiting[stage] -= min(self.width, self.waiting[stage])
@@ -207,7 +207,7 @@ class Triangulation:
 
     def _defer(self, stage: int, batch: Batch, expansion: Expansion, status: int, count: int) -> None:
         if stage not in self.queues:
-            self.queues[stage] = empty_queue(len(self.mesh.corners) // 4)
+            self.queues[stage] = empty_queue(2 * self.capacity)
             self.tails[stage] = self.waiting[stage] = 0
         while self.tails[stage] + self.width > len(self.queues[stage].half):
             self.queues[stage] = grown_queue(self.queues[stage])
@@ -259,6 +259,7 @@ class Triangulation:
     def run(self, report: Callable[[int, int, int], None] | None) -> None:
         self.plant()
         self.fresh = self.tail = 4 * self.iteration[0]
+        self._report(report)
         while True:
             waiting = {WINDOW: self.fresh} | self.waiting
             full = [stage for stage, w in waiting.items() if w >= self.width]
@@ -268,8 +269,11 @@ class Triangulation:
             while self._is_full():
                 self.mesh = grown(self.mesh, self.width)
             self.step(min(some))
-            if report is not None:
-                report(len(self.iteration) - 1, self.fresh + sum(self.waiting.values()), sum(self.iteration))
+            self._report(report)
+
+    def _report(self, report: Callable[[int, int, int], None] | None) -> None:
+        if report is not None:
+            report(len(self.iteration), self.fresh + sum(self.waiting.values()), sum(self.iteration))
 
     def _is_full(self) -> bool:
         size = len(self.mesh.corners)

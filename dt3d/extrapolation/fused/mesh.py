@@ -111,24 +111,46 @@ def defer(queue: Queue, batch: Batch, expansion: Expansion, status: Any) -> Queu
     return append(queue, flags, batch.half, rounded_up(expansion.high))
 
 
-@partial(jax.jit, donate_argnames="mesh")
-def attach(mesh: Mesh, batch: Batch, expansion: Expansion) -> tuple[Mesh, Any]:
+@partial(jax.jit, static_argnames="chunk", donate_argnames="mesh")
+def attach(mesh: Mesh, batch: Batch, expansion: Expansion, chunk: int) -> tuple[Mesh, Any]:
     """Make the tetrahedra that a batch has found, each once; and what the host has to know.
 
     That is: tetrahedra, fresh faces that wait, the tail of their queue, contradictions, faces of each status.
     """
+
+    def one_chunk(k: Any, state: Any) -> Any:
+        mesh, contradictions = state
+        cut = partial(jax.lax.dynamic_slice, start_indices=(k * chunk,), slice_sizes=(chunk,))
+        half, face, status, site = jax.tree.map(
+            cut, (batch.half, batch.face, expansion.status, expansion.site)
+        )
+        # a face may have met since it was taken: another of this batch has found its tetrahedron
+        active = (jnp.arange(chunk) + k * chunk < batch.count) & (at(mesh.neighbors, half) == OPEN)
+        mesh, more = _attach_chunk(mesh, half, face, status, site, active)
+        return mesh, contradictions + more
+
+    chunks = (batch.count + chunk - 1) // chunk
+    mesh, contradictions = jax.lax.fori_loop(0, chunks, one_chunk, (mesh, jnp.int32(0)))
+    active = jnp.arange(len(batch.half)) < batch.count
+    statuses = [jnp.sum(active & (expansion.status == s), dtype=jnp.int32) for s in range(4)]
+    fresh = mesh.fresh
+    return mesh, jnp.stack([mesh.tetrahedra, fresh.tail - fresh.head, fresh.tail, contradictions, *statuses])
+
+
+def _attach_chunk(
+    mesh: Mesh, behind: Any, face: Any, status: Any, site: Any, active: Any
+) -> tuple[Mesh, Any]:
     corners, neighbors, table = mesh.corners, mesh.neighbors, mesh.table
-    width, capacity = len(batch.half), len(corners)
+    width, capacity = len(behind), len(corners)
     lane = jnp.arange(width, dtype=jnp.int32)
-    active = lane < batch.count
-    found, hull = active & (expansion.status == FOUND), active & (expansion.status == HULL)
+    found, hull = active & (status == FOUND), active & (status == HULL)
 
     # a face that is found stands in its place, so that others of its tetrahedron see it
-    known = jnp.where(found | hull, batch.half, capacity)
+    known = jnp.where(found | hull, behind, capacity)
     neighbors = neighbors.at[known].set(jnp.where(found, -3 - lane, OUTSIDE), mode="drop")
 
     # one of the faces that found a tetrahedron makes it: the first
-    (a, b, c), d = batch.face, jnp.where(found, expansion.site, 0)
+    (a, b, c), d = face, jnp.where(found, site, 0)
     facets = _others(a, b, c, d)
     entry, slot = look_up(table, corners, facets, jnp.tile(found, 3))
     there = entry != ABSENT
@@ -137,7 +159,7 @@ def attach(mesh: Mesh, batch: Batch, expansion: Expansion) -> tuple[Mesh, Any]:
     earlier = there & (state <= -3) & (-3 - state < jnp.tile(lane, 3))
     makes = found & ~jnp.any(earlier.reshape(3, width), axis=0)
     thirds = [*entry.reshape(3, width), *slot.reshape(3, width)]
-    a, b, c, d, behind, *thirds, m = packed(makes, a, b, c, d, batch.half, *thirds)
+    a, b, c, d, behind, *thirds, m = packed(makes, a, b, c, d, behind, *thirds)
     entry, slot = jnp.concatenate(thirds[:3]), jnp.concatenate(thirds[3:])
     new = lane < m
     news = jnp.tile(new, 3)
@@ -159,9 +181,7 @@ def attach(mesh: Mesh, batch: Batch, expansion: Expansion) -> tuple[Mesh, Any]:
     neighbors = neighbors.at[there].set(jnp.concatenate([half, own + 3]), mode="drop")
 
     fresh = append(mesh.fresh, news & (at(neighbors, half) == OPEN), half)
-    statuses = [jnp.sum(active & (expansion.status == s), dtype=jnp.int32) for s in range(4)]
-    facts = jnp.stack([t + m, fresh.tail - fresh.head, fresh.tail, contradictions, *statuses])
-    return Mesh(corners, neighbors, table, fresh, t + m), facts
+    return Mesh(corners, neighbors, table, fresh, t + m), contradictions
 
 
 def _others(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, Any, Any]:
@@ -200,8 +220,8 @@ def planted(tetrahedra: np.ndarray, capacity: int, width: int) -> Mesh:
 
 
 def empty_queue(capacity: int) -> Queue:
-    """A queue that keeps bounds, for all half-faces of ``capacity`` tetrahedra."""
-    half, bound = jnp.zeros(4 * capacity, jnp.int32), jnp.zeros(4 * capacity, jnp.float32)
+    """A queue that keeps bounds."""
+    half, bound = jnp.zeros(capacity, jnp.int32), jnp.zeros(capacity, jnp.float32)
     return Queue(half, bound, jnp.int32(0), jnp.int32(0))
 
 
