@@ -2,8 +2,8 @@
 
 A slot holds a half-face, 4 t + k for the face of tetrahedron t opposite its k-th vertex; the facet's vertices
 are read from the tetrahedron. All keys of a batch claim slots at once: each sends its half-face with a
-minimum, reads the slot back, and goes on if another facet sits there. Facets that have met are never asked for
-again and stay until the table is made anew.
+minimum, reads the slot back, and goes on if another facet sits there. Facets that have met are never asked
+for again and stay until the table is made anew.
 """
 
 from __future__ import annotations

@@ -26,6 +26,7 @@ from ..points import Point
 from ..search import NO_SITE
 from ..start import seeds as exact_seeds
 from .expand import AHEAD, FOUND, HULL, TIE, WIDER, Expansion, expand
+from .far import expand_far
 from .mesh import (
     TETRAHEDRA_PER_SITE,
     Batch,
@@ -47,11 +48,12 @@ FEWEST_SITES = 2000  # for fewer, compiling these steps takes longer than all el
 SMALLEST = 8192  # sites that arrays are made for, at least
 WIDEST_WAVE = 2**13
 CHUNK = 2048  # faces whose data fit into a core's cache
-WIDE_CHUNK = 512
-# The stages of a face: its window, wide searches of more and more turns, ties, and the general code.
-WINDOW, TIES, GENERAL = 0, 4, 5
-TURNS = {1: 64, 2: 512, 3: 2**30}
-NEXT = {WINDOW: 1, 1: 2, 2: 3, 3: GENERAL, TIES: GENERAL, GENERAL: GENERAL}
+WALK_CHUNK = 512
+FAR_CHUNK = 64
+# The stages of a face: its window, a walk of some turns along rows of cells, all rows, ties, general code.
+WINDOW, WALK, FAR, TIES, GENERAL = range(5)
+TURNS = 64
+NEXT = {WINDOW: WALK, WALK: FAR, FAR: GENERAL, TIES: GENERAL, GENERAL: GENERAL}
 
 
 def serves(sites: np.ndarray) -> bool:
@@ -111,7 +113,7 @@ class Triangulation:
         self.tetrahedra_per_site = tetrahedra_per_site
         self.seconds: dict[str, float] = {}
         self.face_expansions = self.exact_decisions = self.sites_searched = 0
-        # faces that wait for a stage beyond the first, and how many of them are in the array and not yet taken
+        # of each stage beyond the first: faces, how many have come, and how many of those wait
         self.queues: dict[int, Queue] = {}
         self.tails: dict[int, int] = {}
         self.waiting: dict[int, int] = {}
@@ -185,7 +187,7 @@ class Triangulation:
         else:
             self.queues[stage] = queue
         expansion, searched = self._expand(stage, batch)
-        self._add("face expansion" if stage == 0 else f"stage {stage}", begin)
+        self._add("face expansion", begin)
         begin = time.perf_counter()
         self.mesh, facts = attach(self.mesh, batch, expansion, min(CHUNK, self.width))
         after, self.fresh, self.tail, contradictions, *statuses = np.asarray(facts).tolist()
@@ -194,7 +196,9 @@ class Triangulation:
         for status, next_stage in ((WIDER, NEXT[stage]), (TIE, TIES if stage == WINDOW else GENERAL)):
             if statuses[status]:
                 self._defer(next_stage, batch, expansion, status, statuses[status])
-        self.face_expansions += sum(statuses)
+        settled = statuses[FOUND] + statuses[HULL]
+        self.face_expansions += settled
+        self.exact_decisions += settled if stage in (TIES, GENERAL) else 0
         self.sites_searched += int(searched)
         self.iteration.append(after - sum(self.iteration))
         self._add("dead faces", begin)
@@ -218,10 +222,15 @@ class Triangulation:
     def _expand(self, stage: int, batch: Batch) -> tuple[Expansion, Any]:
         if stage == WINDOW:
             return self._expand_in_windows(batch.face, batch.count)
-        if stage in TURNS:
-            turns, chunk = TURNS[stage], min(WIDE_CHUNK, self.width)
+        if stage == WALK:
+            chunk = min(WALK_CHUNK, self.width)
             return expand_widely(
-                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, turns, chunk
+                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, TURNS, chunk
+            )
+        if stage == FAR:
+            chunk = min(FAR_CHUNK, self.width)
+            return expand_far(
+                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, chunk
             )
         if stage == TIES:
             digits, rank = self.digits
@@ -251,7 +260,6 @@ class Triangulation:
         if m:
             faces = np.stack([np.asarray(v)[:m] for v in batch.face], axis=1)
             site[:m], searched = self.general.expand(faces)
-            self.exact_decisions += m
         status = np.where(site == NO_SITE, HULL, FOUND).astype(np.int32)
         nothing = np.zeros(self.width)
         return Expansion(site, status, nothing, nothing), searched if m else 0

@@ -129,7 +129,7 @@ def _next_row(query: Frame, rows: Rows, walk: Walk) -> Walk:
     grid, box = rows.grid, walk.box
     moves = walk.going & (walk.site >= walk.end) & (walk.k <= box.z1)
     bound = jnp.minimum(walk.limit, walk.best.high)
-    first, last = _part_of_row(query, bound, walk.j, walk.k, grid)
+    first, last = part_of_row(query, bound, walk.j, walk.k, grid)
     first, last = jnp.maximum(first, box.x0), jnp.minimum(last, box.x1)
     row = grid.nx * (walk.j + grid.ny * walk.k)
     empty = last < first
@@ -144,7 +144,7 @@ def _next_row(query: Frame, rows: Rows, walk: Walk) -> Walk:
     )
 
 
-def _part_of_row(query: Frame, bound: Any, j: Any, k: Any, grid: Grid) -> tuple[Any, Any]:
+def part_of_row(query: Frame, bound: Any, j: Any, k: Any, grid: Grid) -> tuple[Any, Any]:
     """The cells of a row along x, first and last, that the cap below a bound may meet."""
     low, high = corners(jnp.zeros_like(j), j, k, grid)
     low, high = Point(grid.origin.x, low.y, low.z), Point(grid.high.x, high.y, high.z)
