@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 
 from ..boxes import Box, contains
-from ..expansion import _region
+from ..expansion import cap_cells
 from ..filtered_distance import Frame, distance_bounds, frame
 from ..points import Point, add, dot, norm, scale, sub
 from ..search import NO_SITE
@@ -44,12 +44,6 @@ def nothing_known(size: int) -> Expansion:
         jnp.full(size, -jnp.inf),
         jnp.full(size, jnp.inf),
     )
-
-
-class Query(NamedTuple):
-    """An open face, as the bounds of `expansion` take it."""
-
-    frame: Frame
 
 
 @partial(jax.jit, static_argnames="chunk")
@@ -82,7 +76,8 @@ def at(array: Any, index: Any) -> Any:
 def _expand_chunk(
     sites: Point, face: Any, active: Any, lattice: Any, ahead: Any, windows: Windows
 ) -> tuple[Expansion, Any]:
-    query = frame(*(Point(*(at(x, v) for x in sites)) for v in face), lattice)
+    a, b, c = (Point(*(at(x, v) for x in sites)) for v in face)
+    query = frame(a, b, c, lattice)
     window, box = _window_about(query, ahead, windows)
     first = at(windows.starts, window)
     length = jnp.where(active, at(windows.starts, window + 1) - first, 0)
@@ -111,7 +106,7 @@ def _expand_chunk(
         return count + (counts & ~(some & (site == candidate)) & (least < jnp.inf) & ~(least > high))
 
     others = _loop(most, rivals, jnp.zeros_like(first))
-    covered = contains(box, _region(Query(query), high, windows.grid)) & small
+    covered = contains(box, cap_cells(query, high, windows.grid)) & small
     return settle(covered, others == 0, some, candidate, low, high), jnp.sum(length.astype(jnp.int64))
 
 

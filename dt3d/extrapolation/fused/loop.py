@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -15,18 +15,11 @@ import scanvec as sv
 
 from ..._errors import InconsistencyError
 from ...predicates.integers import limbs_of
-from ..buckets import bucket
-from ..dead_faces import distinct_facets
-from ..decisions import expand_exactly
-from ..exact_sites import ExactSites, small_integers
-from ..expansion import Face
-from ..gift_wrapping import first_facets
 from ..outcome import Outcome
 from ..points import Point
 from ..search import NO_SITE
-from ..start import seeds as exact_seeds
 from .expand import AHEAD, FOUND, HULL, TIE, WIDER, Expansion, expand
-from .far import expand_far
+from .general import GeneralCode
 from .mesh import (
     TETRAHEDRA_PER_SITE,
     Batch,
@@ -46,62 +39,28 @@ from .windows import SITES_PER_CELL, cells_of, even, grid_of, windows_of
 
 FEWEST_SITES = 2000  # for fewer, compiling these steps takes longer than all else
 SMALLEST = 8192  # sites that arrays are made for, at least
-WIDEST_WAVE = 2**13
-CHUNK = 2048  # faces whose data fit into a core's cache
-WALK_CHUNK = 512
-FAR_CHUNK = 64
-# The stages of a face: its window, a walk of some turns along rows of cells, all rows, ties, general code.
-WINDOW, WALK, FAR, TIES, GENERAL = range(5)
-TURNS = 64
-NEXT = {WINDOW: WALK, WALK: FAR, FAR: GENERAL, TIES: GENERAL, GENERAL: GENERAL}
+
+
+class Layout(NamedTuple):
+    """How many faces are together in a step, and in the loops inside it."""
+
+    wave: int
+    chunk: int
+    wide: int
+
+
+# On a CPU the data of a chunk fit into a core's cache.
+LAYOUTS = {"cpu": Layout(2**13, 2048, 1024)}
+OTHERWISE = Layout(2**17, 2**17, 2**15)
+
+# The stages of a face: its window, a wide search, ties in a window, and the general code.
+WINDOW, WIDE, TIES, GENERAL = range(4)
+NEXT = {WINDOW: WIDE, WIDE: GENERAL, TIES: GENERAL, GENERAL: GENERAL}
 
 
 def serves(sites: np.ndarray) -> bool:
     """Whether distinct sites (n, 3) are many, and fill space evenly."""
     return len(sites) >= FEWEST_SITES and even(sites)
-
-
-class _General:
-    """The general code for what the bounds leave open, with its own numbers of the sites."""
-
-    def __init__(self, machine: sv.Machine, sites: np.ndarray, order: np.ndarray) -> None:
-        self._machine, self._sites, self._order = machine, sites, order
-
-    @cached_property
-    def lattice(self) -> bool:
-        """Whether heights are exact in floating point."""
-        return small_integers(limbs_of(self._sites))
-
-    @cached_property
-    def exact(self) -> ExactSites:
-        columns = (self._machine.vector(np.ascontiguousarray(c)) for c in self._sites.T)
-        return ExactSites(bucket(Point(*columns)), self._sites)
-
-    @cached_property
-    def _theirs(self) -> tuple[np.ndarray, np.ndarray]:
-        origin = self.exact.buckets.origin.to_numpy()
-        there = np.empty(len(origin), np.int32)
-        there[origin] = np.arange(len(origin))
-        here = np.empty(len(origin), np.int32)
-        here[self._order] = np.arange(len(origin))
-        return there[self._order], here[origin]
-
-    def expand(self, faces: np.ndarray) -> tuple[np.ndarray, int]:
-        """Fourth vertices, or `NO_SITE`, of faces (m, 3); and the sites examined."""
-        there, here = self._theirs
-        vectors = (self._machine.vector(np.ascontiguousarray(there[v])) for v in faces.T)
-        expansion, counts = expand_exactly(self.exact, Face(*vectors))
-        site = expansion.site.to_numpy()
-        return np.where(site == NO_SITE, NO_SITE, here[site]).astype(np.int32), counts.sites_searched
-
-    def seeds(self, chosen: np.ndarray) -> np.ndarray:
-        """Tetrahedra (m, 4) at first facets of chosen sites."""
-        there = self._machine.vector(self._theirs[0][chosen])
-        facets = Face(*first_facets(self.exact.buckets, there))
-        facets = distinct_facets(sv.pack(facets, facets.c != NO_SITE))
-        start, _ = exact_seeds(self.exact, facets)
-        rows = np.stack([v.to_numpy() for v in (*start.faces, start.site)], axis=1)
-        return self._theirs[1][rows[rows[:, 3] != NO_SITE]]
 
 
 class Triangulation:
@@ -124,7 +83,7 @@ class Triangulation:
         cell = cells_of(sites, finest)
         self.order = np.argsort(cell, kind="stable")
         self.sites = sites[self.order]
-        self.general = _General(machine, sites, self.order)
+        self.general = GeneralCode(machine, sites, self.order)
         self.windows = windows_of(self.sites, finest, capacity)
         cells = int(finest.nx) * int(finest.ny) * int(finest.nz)
         starts = np.full(2 * capacity + 1, n, np.int32)
@@ -136,7 +95,9 @@ class Triangulation:
         self.windows = jax.tree.map(jnp.asarray, self.windows)
         self.rows = jax.tree.map(jnp.asarray, Rows(finest, starts))
         self.ahead = AHEAD * float(finest.side)
-        self.width = min(WIDEST_WAVE, capacity)
+        layout = LAYOUTS.get(jax.default_backend(), OTHERWISE)
+        self.layout = Layout(*(min(x, capacity) for x in layout))
+        self.width = self.layout.wave
         self.lattice = self.general.lattice
         self.capacity = capacity
         self._add("buckets", begin)
@@ -189,7 +150,7 @@ class Triangulation:
         expansion, searched = self._expand(stage, batch)
         self._add("face expansion", begin)
         begin = time.perf_counter()
-        self.mesh, facts = attach(self.mesh, batch, expansion, min(CHUNK, self.width))
+        self.mesh, facts = attach(self.mesh, batch, expansion, self.layout.chunk)
         after, self.fresh, self.tail, contradictions, *statuses = np.asarray(facts).tolist()
         if stage:
             self.waiting[stage] -= min(self.width, self.waiting[stage])
@@ -222,26 +183,20 @@ class Triangulation:
     def _expand(self, stage: int, batch: Batch) -> tuple[Expansion, Any]:
         if stage == WINDOW:
             return self._expand_in_windows(batch.face, batch.count)
-        if stage == WALK:
-            chunk = min(WALK_CHUNK, self.width)
+        if stage == WIDE:
             return expand_widely(
-                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, TURNS, chunk
-            )
-        if stage == FAR:
-            chunk = min(FAR_CHUNK, self.width)
-            return expand_far(
-                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, chunk
+                self.points, batch.face, batch.bound, batch.count, self.lattice, self.rows, self.layout.wide
             )
         if stage == TIES:
             digits, rank = self.digits
             return expand_ties(
                 self.points, digits, rank, batch.face, batch.count, self.lattice, self.ahead, self.windows,
-                min(CHUNK, self.width),
+                self.layout.chunk,
             )  # fmt: skip
         return self._decide(batch)
 
     def _expand_in_windows(self, face: Any, count: Any) -> tuple[Expansion, Any]:
-        chunk = min(CHUNK, self.width)
+        chunk = self.layout.chunk
         return expand(self.points, face, count, self.lattice, self.ahead, self.windows, chunk)
 
     @cached_property

@@ -15,11 +15,11 @@ import jax.numpy as jnp
 
 from ...predicates import elementwise
 from ..boxes import contains
-from ..expansion import _region
+from ..expansion import cap_cells
 from ..filtered_distance import distance_bounds, frame
 from ..points import Point
 from ..search import NO_SITE
-from .expand import FOUND, HULL, WIDER, Expansion, Query, _loop, _window_about, at, nothing_known
+from .expand import FOUND, HULL, WIDER, Expansion, _loop, _window_about, at, nothing_known
 from .windows import Windows
 
 WORDS = 4  # of 32 marks; windows with more members are left to others
@@ -60,7 +60,8 @@ def expand_ties(
 def _decide(
     sites: Point, digits: Any, rank: Any, face: Any, active: Any, lattice: Any, ahead: Any, windows: Windows
 ) -> tuple[Expansion, Any]:
-    query = frame(*(Point(*(at(x, v) for x in sites)) for v in face), lattice)
+    a, b, c = (Point(*(at(x, v) for x in sites)) for v in face)
+    query = frame(a, b, c, lattice)
     window, box = _window_about(query, ahead, windows)
     first = at(windows.starts, window)
     length = jnp.where(active, at(windows.starts, window + 1) - first, 0)
@@ -99,7 +100,7 @@ def _decide(
         challenger = at(windows.members, first + jnp.maximum(place, 0))
         corners = [_digits_of(digits, v) for v in face]
         there = _digits_of(digits, challenger)
-        above = rest & (jax.vmap(elementwise.orient3d)(*corners, there) > 0)
+        above = rest & (jax.vmap(elementwise.orient3d)(corners[0], corners[1], corners[2], there) > 0)
         some = champion != NO_SITE
         apex = jnp.where(some, champion, challenger)
         vertices = (*corners, _digits_of(digits, apex))
@@ -112,7 +113,7 @@ def _decide(
 
     marks = tuple(mark(w) for w in range(WORDS))
     _, champion = jax.lax.while_loop(unfinished, compare, (marks, jnp.full_like(first, NO_SITE)))
-    covered = contains(box, _region(Query(query), high, windows.grid)) & small
+    covered = contains(box, cap_cells(query, high, windows.grid)) & small
     status = jnp.where(covered, jnp.where(champion != NO_SITE, FOUND, HULL), WIDER).astype(jnp.int32)
     site = jnp.where(status == FOUND, champion, NO_SITE)
     settled = Expansion(site, status, jnp.where(status == HULL, jnp.inf, -jnp.inf), high)

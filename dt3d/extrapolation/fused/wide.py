@@ -1,9 +1,9 @@
-"""The wide search: all cells that a face's cap meets, row by row, for faces whose window was too small.
+"""The wide search: all sites in a face's cap, for faces whose window was too small.
 
-Every face walks by itself: it has a bound on the signed distance, goes through the rows of cells that the
-cap below this bound meets, and the sites of each row's part within the cap. A better candidate lowers the
-bound. A face without any candidate tries growing bounds, as `tree_search` does, the last of which is none.
-All take their steps together, and after so many of them (`turns`) those that are not done are left.
+Requests and warrants again (Teng et al. 1993, section 4.2), in two flat lists whose pieces have one length:
+a request for every face and row of cells that the box of its cap meets, and an item for every site of the
+part of the row that the cap meets, which a formula tells. The best of each face is collected by minima. A
+face without a candidate tries growing bounds; the last is none, so every face is settled, or a tie.
 """
 
 from __future__ import annotations
@@ -14,54 +14,48 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from ..boxes import Box, Grid, _cell, corners
-from ..expansion import TRIALS, _exact_trial, _region
+from ..boxes import Grid, _cell, corners, volume
+from ..expansion import TRIALS, cap_cells, trial_bound
 from ..filtered_distance import Frame, distance_bounds, frame
 from ..points import Point, dot, epsilon, norm
 from ..regions import half_space_bounds
 from ..search import NO_SITE, Best
 from ..search import _least as least
-from .expand import Expansion, Query, at, nothing_known, settle
+from .expand import Expansion, at, nothing_known, settle
 
-STEPS = 4  # sites that a face examines in one turn, at most
+REQUESTS = 4096  # rows of faces looked at together
+ITEMS = 4096  # sites examined together
 
 
 class Rows(NamedTuple):
-    """The finest cells; the sites are in the order of these, so that those of a row follow each other."""
+    """The cells; the sites are in the order of these, so that those of a row follow each other."""
 
     grid: Grid
     starts: Any  # int32 (cells + 1, or more)
 
 
-class Walk(NamedTuple):
+class Pass(NamedTuple):
     """Where each face is."""
 
-    trial: Any  # the next bound to try
-    limit: Any  # the bound of this pass
-    box: Box  # the cells of its cap
-    j: Any  # the row that comes next
-    k: Any
-    site: Any  # the sites of a row still to be examined
-    end: Any
+    trial: Any
+    limit: Any
     best: Best
-    known: Any  # the least upper bound of all passes
+    known: Any
     going: Any
-    covered: Any  # whether the last pass has seen all that could be better
-    searched: Any
 
 
 @partial(jax.jit, static_argnames="chunk")
 def expand_widely(
-    sites: Point, face: Any, bound: Any, count: Any, lattice: Any, rows: Rows, turns: Any, chunk: int
+    sites: Point, face: Any, bound: Any, count: Any, lattice: Any, rows: Rows, chunk: int
 ) -> tuple[Expansion, Any]:
     """The first ``count`` of the faces, for which ``bound`` is an upper bound of the signed distance."""
 
     def one_chunk(k: Any, state: Any) -> Any:
         out, searched = state
         start = k * chunk
-        *part, limit = (jax.lax.dynamic_slice(v, (start,), (chunk,)) for v in (*face, bound))
+        *part, known = (jax.lax.dynamic_slice(v, (start,), (chunk,)) for v in (*face, bound))
         active = jnp.arange(chunk) + start < count
-        settled, more = _walk(sites, part, limit, active, lattice, rows, turns)
+        settled, more = _search(sites, part, known, active, lattice, rows)
         write = jax.lax.dynamic_update_slice
         return jax.tree.map(lambda x, y: write(x, y, (start,)), out, settled), searched + more
 
@@ -69,79 +63,83 @@ def expand_widely(
     return jax.lax.fori_loop(0, chunks, one_chunk, (nothing_known(len(face[0])), jnp.int64(0)))
 
 
-def _walk(
-    sites: Point, face: Any, bound: Any, active: Any, lattice: Any, rows: Rows, turns: Any
+def _search(
+    sites: Point, face: Any, known: Any, active: Any, lattice: Any, rows: Rows
 ) -> tuple[Expansion, Any]:
-    query = frame(*(Point(*(at(x, v) for x in sites)) for v in face), lattice)
-    zero = jnp.zeros_like(face[0])
+    a, b, c = (Point(*(at(x, v) for x in sites)) for v in face)
+    query = frame(a, b, c, lattice)
     infinite = jnp.full_like(query.blur, jnp.inf)
-    nothing = Best(infinite, jnp.full_like(zero, NO_SITE), infinite, infinite)
-    empty = Box(*[zero] * 6)
-    never = jnp.zeros_like(active)
-    # a pass over nothing comes before the first
-    walk = Walk(zero, -infinite, empty, zero, zero + 1, zero, zero, nothing, bound, active, never, zero)
+    nothing = Best(infinite, jnp.full_like(face[0], NO_SITE), infinite, infinite)
 
-    def turn(state: Any) -> Any:
-        n, walk = state
-        over = walk.going & (walk.k > walk.box.z1) & (walk.site >= walk.end)
-        walk = jax.lax.cond(
-            jnp.any(over), lambda w: _next_pass(query, rows.grid, nothing, w, over), lambda w: w, walk
-        )
-        walk = _next_row(query, rows, walk)
-        return n + 1, _examine(query, sites, face, walk)
+    def one_pass(state: Any) -> Any:
+        now, searched = state
+        limit = jnp.where(now.known < jnp.inf, now.known, trial_bound(query, now.trial))
+        last = jnp.isnan(limit) | (now.trial > TRIALS)
+        limit = jnp.where(last, jnp.inf, limit)
+        best, more = _look(sites, query, face, limit, now.going, rows, nothing)
+        over = now.going & ((best.high <= limit) | (limit == jnp.inf))
+        best = Best(*(jnp.where(now.going, x, y) for x, y in zip(best, now.best, strict=True)))
+        known = jnp.minimum(now.known, best.high)
+        return Pass(now.trial + 1, limit, best, known, now.going & ~over), searched + more
 
-    def goes_on(state: Any) -> Any:
-        return (state[0] < turns) & jnp.any(state[1].going)
-
-    walk = jax.lax.while_loop(goes_on, turn, (jnp.int32(0), walk))[1]
-    best = walk.best
+    start = Pass(jnp.zeros_like(face[0]), infinite, nothing, known, active)
+    end, searched = jax.lax.while_loop(lambda s: jnp.any(s[0].going), one_pass, (start, jnp.int64(0)))
+    best = end.best
     some = best.low < jnp.inf
-    settled = settle(walk.covered, ~some | (best.second > best.high), some, best.site, best.low, best.high)
-    return settled._replace(high=jnp.minimum(walk.known, best.high)), jnp.sum(walk.searched.astype(jnp.int64))
+    alone = ~some | (best.second > best.high)
+    return settle(active, alone, some, best.site, best.low, best.high), searched
 
 
-def _next_pass(query: Frame, grid: Grid, nothing: Best, walk: Walk, over: Any) -> Walk:
-    """Faces whose pass is over end, if it has covered what it had to, or begin the next one."""
-    known = jnp.where(over, jnp.minimum(walk.known, walk.best.high), walk.known)
-    covered = over & (walk.limit > -jnp.inf) & ((walk.best.high <= walk.limit) | (walk.limit == jnp.inf))
-    again = over & ~covered
-    limit = jnp.where(known < jnp.inf, known, _exact_trial(Query(query), walk.trial))
-    limit = jnp.where(jnp.isnan(limit), jnp.inf, limit)
-    limit = jnp.where(walk.trial > TRIALS, jnp.inf, limit)
-    box = _region(Query(query), limit, grid)
-    box = Box(*(jnp.where(again, x, y) for x, y in zip(box, walk.box, strict=True)))
-    best = Best(*(jnp.where(again, x, y) for x, y in zip(nothing, walk.best, strict=True)))
-    return walk._replace(
-        trial=walk.trial + again,
-        limit=jnp.where(again, limit, walk.limit),
-        box=box,
-        j=jnp.where(again, box.y0, walk.j),
-        k=jnp.where(again, box.z0, walk.k),
-        best=best,
-        known=known,
-        going=walk.going & ~covered,
-        covered=walk.covered | covered,
-    )
+def _look(
+    sites: Point, query: Frame, face: Any, limit: Any, going: Any, rows: Rows, best: Best
+) -> tuple[Best, Any]:
+    """The best of the sites in the caps below the limits."""
+    grid = rows.grid
+    box = cap_cells(query, limit, grid)
+    empty = (volume(box) <= 0) | ~going
+    count = jnp.where(empty, 0, (box.y1 - box.y0 + 1) * (box.z1 - box.z0 + 1))
+    requests = jnp.cumsum(count, dtype=jnp.int32)
+
+    def piece_of_requests(p: Any, state: Any) -> Any:
+        best, searched = state
+        owner, place, exists = _unfolded(requests, count, p * REQUESTS, REQUESTS)
+        asking, below, cells = jax.lax.optimization_barrier(
+            jax.tree.map(lambda x: at(x, owner), (query, limit, box))
+        )
+        across = jnp.maximum(cells.y1 - cells.y0 + 1, 1)
+        j, k = cells.y0 + place % across, cells.z0 + place // across
+        first, last = part_of_row(asking, below, j, k, grid)
+        first, last = jnp.maximum(first, cells.x0), jnp.minimum(last, cells.x1)
+        some = exists & (first <= last)
+        row = grid.nx * (j + grid.ny * k)
+        first, last = jnp.where(some, row + first, 0), jnp.where(some, row + last + 1, 0)
+        begin, end = jax.lax.optimization_barrier((at(rows.starts, first), at(rows.starts, last)))
+        length = end - begin
+        items = jnp.cumsum(length, dtype=jnp.int32)
+
+        def piece_of_items(q: Any, best: Best) -> Best:
+            request, offset, exists = _unfolded(items, length, q * ITEMS, ITEMS)
+            site = jnp.where(exists, at(begin, request) + offset, 0)
+            return _collect(sites, query, face, best, site, at(owner, request), exists)
+
+        best = jax.lax.fori_loop(0, (items[-1] + ITEMS - 1) // ITEMS, piece_of_items, best)
+        return best, searched + items[-1]
+
+    pieces = (requests[-1] + REQUESTS - 1) // REQUESTS
+    return jax.lax.fori_loop(0, pieces, piece_of_requests, (best, jnp.int64(0)))
 
 
-def _next_row(query: Frame, rows: Rows, walk: Walk) -> Walk:
-    """Faces that have examined a row's sites take the next row, if there is one."""
-    grid, box = rows.grid, walk.box
-    moves = walk.going & (walk.site >= walk.end) & (walk.k <= box.z1)
-    bound = jnp.minimum(walk.limit, walk.best.high)
-    first, last = part_of_row(query, bound, walk.j, walk.k, grid)
-    first, last = jnp.maximum(first, box.x0), jnp.minimum(last, box.x1)
-    row = grid.nx * (walk.j + grid.ny * walk.k)
-    empty = last < first
-    site = at(rows.starts, jnp.where(moves, row + first, 0))
-    end = jnp.where(empty, site, at(rows.starts, jnp.where(moves & ~empty, row + last + 1, 0)))
-    wraps = walk.j >= box.y1
-    return walk._replace(
-        j=jnp.where(moves, jnp.where(wraps, box.y0, walk.j + 1), walk.j),
-        k=jnp.where(moves & wraps, walk.k + 1, walk.k),
-        site=jnp.where(moves, site, walk.site),
-        end=jnp.where(moves, end, walk.end),
-    )
+def _unfolded(after: Any, counts: Any, start: Any, size: int) -> tuple[Any, Any, Any]:
+    """Of a piece of the list that has ``counts`` entries for each owner: owners, places, and which exist.
+
+    ``after`` are the sums of the counts.
+    """
+    entry = start + jnp.arange(size, dtype=jnp.int32)
+    owner = jnp.searchsorted(after, entry, side="right").astype(jnp.int32)
+    owner = jnp.minimum(owner, len(counts) - 1)
+    exists = entry < after[-1]
+    place = jnp.where(exists, entry - (at(after, owner) - at(counts, owner)), 0)
+    return (*jax.lax.optimization_barrier((owner, place)), exists)
 
 
 def part_of_row(query: Frame, bound: Any, j: Any, k: Any, grid: Grid) -> tuple[Any, Any]:
@@ -177,21 +175,28 @@ def part_of_row(query: Frame, bound: Any, j: Any, k: Any, grid: Grid) -> tuple[A
     return first, jnp.where(missed, -1, last)
 
 
-def _examine(query: Frame, sites: Point, face: Any, walk: Walk) -> Walk:
-    best, before = walk.best, walk.site
-    for step in range(STEPS):
-        site = before + step
-        counts = walk.going & (site < walk.end)
-        there = jnp.where(counts, site, 0)
-        own = (site == face[0]) | (site == face[1]) | (site == face[2])
-        point = jax.lax.optimization_barrier(Point(*(at(x, there) for x in sites)))
-        low, high = distance_bounds(query, point)
-        passed = own | ~counts
-        low, high = jnp.where(passed, jnp.inf, low), jnp.where(passed, jnp.inf, high)
-        low, high = jax.lax.optimization_barrier((low, high))
-        best = least(
-            best, Best(low, jnp.where(low < jnp.inf, site, NO_SITE), jnp.full_like(low, jnp.inf), high)
-        )
-    after = jnp.where(walk.going, jnp.minimum(before + STEPS, walk.end), before)
-    after = jnp.maximum(after, before)
-    return walk._replace(best=best, site=after, searched=walk.searched + (after - before))
+def _collect(sites: Point, query: Frame, face: Any, best: Best, site: Any, owner: Any, exists: Any) -> Best:
+    """The best so far and those of more sites, each for one of the faces."""
+    own = (site == at(face[0], owner)) | (site == at(face[1], owner)) | (site == at(face[2], owner))
+    asking, point = jax.lax.optimization_barrier(
+        (jax.tree.map(lambda x: at(x, owner), query), Point(*(at(x, site) for x in sites)))
+    )
+    low, high = distance_bounds(asking, point)
+    passed = own | ~exists
+    low, high = jax.lax.optimization_barrier(
+        (jnp.where(passed, jnp.inf, low), jnp.where(passed, jnp.inf, high))
+    )
+    infinite, size = jnp.full_like(best.low, jnp.inf), len(best.low)
+    least_low = infinite.at[owner].min(low)
+    holds = (low == at(least_low, owner)) & (low < jnp.inf)
+    nobody = jnp.full(size, 2**31 - 1, jnp.int32)
+    holder = nobody.at[jnp.where(holds, owner, size)].min(site, mode="drop")
+    others = jnp.where(holds & (site == at(holder, owner)), jnp.inf, low)
+    found = least_low < jnp.inf
+    here = Best(
+        least_low,
+        jnp.where(found, holder, NO_SITE),
+        infinite.at[owner].min(others),
+        infinite.at[owner].min(high),
+    )
+    return least(best, here)
