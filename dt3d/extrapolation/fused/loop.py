@@ -154,7 +154,7 @@ class Triangulation:
         after, self.fresh, self.tail, contradictions, *statuses = np.asarray(facts).tolist()
         if stage:
             self.waiting[stage] -= min(self.width, self.waiting[stage])
-        for status, next_stage in ((WIDER, NEXT[stage]), (TIE, TIES if stage == WINDOW else GENERAL)):
+        for status, next_stage in ((WIDER, NEXT[stage]), (TIE, TIES)):
             if statuses[status]:
                 self._defer(next_stage, batch, expansion, status, statuses[status])
         settled = statuses[FOUND] + statuses[HULL]
@@ -190,7 +190,7 @@ class Triangulation:
         if stage == TIES:
             digits, rank = self.digits
             return expand_ties(
-                self.points, digits, rank, batch.face, batch.count, self.lattice, self.ahead, self.windows,
+                self.points, digits, rank, batch.face, batch.bound, batch.count, self.lattice, self.windows,
                 self.layout.chunk,
             )  # fmt: skip
         return self._decide(batch)

@@ -14,13 +14,13 @@ import jax
 import jax.numpy as jnp
 
 from ...predicates import elementwise
-from ..boxes import contains
+from ..boxes import Box, contains
 from ..expansion import cap_cells
 from ..filtered_distance import distance_bounds, frame
 from ..points import Point
 from ..search import NO_SITE
-from .expand import FOUND, HULL, WIDER, Expansion, _loop, _window_about, at, nothing_known
-from .windows import Windows
+from .expand import FOUND, HULL, WIDER, Expansion, _loop, at, nothing_known
+from .windows import CELLS, Windows
 
 WORDS = 4  # of 32 marks; windows with more members are left to others
 MARKS = 32 * WORDS
@@ -32,24 +32,25 @@ def expand_ties(
     digits: Any,
     rank: Any,
     face: Any,
+    bound: Any,
     count: Any,
     lattice: Any,
-    ahead: Any,
     windows: Windows,
     chunk: int,
 ) -> tuple[Expansion, Any]:
     """The first ``count`` of the faces, as `expand` takes them; `WIDER` where the window is not enough.
 
-    ``digits`` are three arrays of int32 (L, n), one for each coordinate; ``rank`` is each site's place in the
-    lexicographic order.
+    ``bound`` is an upper bound of the signed distance, the window that about the cap below it. ``digits`` are
+    three arrays of int32 (L, n), one for each coordinate; ``rank`` is each site's place in the lexicographic
+    order.
     """
 
     def one_chunk(k: Any, state: Any) -> Any:
         out, searched = state
         start = k * chunk
-        part = [jax.lax.dynamic_slice(v, (start,), (chunk,)) for v in face]
+        *part, below = (jax.lax.dynamic_slice(v, (start,), (chunk,)) for v in (*face, bound))
         active = jnp.arange(chunk) + start < count
-        settled, more = _decide(sites, digits, rank, part, active, lattice, ahead, windows)
+        settled, more = _decide(sites, digits, rank, part, below, active, lattice, windows)
         write = jax.lax.dynamic_update_slice
         return jax.tree.map(lambda x, y: write(x, y, (start,)), out, settled), searched + more
 
@@ -58,11 +59,11 @@ def expand_ties(
 
 
 def _decide(
-    sites: Point, digits: Any, rank: Any, face: Any, active: Any, lattice: Any, ahead: Any, windows: Windows
+    sites: Point, digits: Any, rank: Any, face: Any, bound: Any, active: Any, lattice: Any, windows: Windows
 ) -> tuple[Expansion, Any]:
     a, b, c = (Point(*(at(x, v) for x in sites)) for v in face)
     query = frame(a, b, c, lattice)
-    window, box = _window_about(query, ahead, windows)
+    window, box = _window_around(cap_cells(query, bound, windows.grid), windows)
     first = at(windows.starts, window)
     length = jnp.where(active, at(windows.starts, window + 1) - first, 0)
     small = length <= MARKS
@@ -118,6 +119,21 @@ def _decide(
     site = jnp.where(status == FOUND, champion, NO_SITE)
     settled = Expansion(site, status, jnp.where(status == HULL, jnp.inf, -jnp.inf), high)
     return settled, jnp.sum(length.astype(jnp.int64))
+
+
+def _window_around(cap: Box, windows: Windows) -> tuple[Any, Box]:
+    """The window with a box of cells in its middle, and its cells."""
+    grid = windows.grid
+    i, last_i = middle(cap.x0, cap.x1, windows.nx, grid.nx)
+    j, last_j = middle(cap.y0, cap.y1, windows.ny, grid.ny)
+    k, last_k = middle(cap.z0, cap.z1, windows.nz, grid.nz)
+    return i + windows.nx * (j + windows.ny * k), Box(i, last_i, j, last_j, k, last_k)
+
+
+def middle(first: Any, last: Any, places: Any, cells: Any) -> tuple[Any, Any]:
+    """The first and last cell along an axis of the window about the cells from ``first`` to ``last``."""
+    start = jnp.clip((first + last) // 2 - (CELLS - 1) // 2, 0, places - 1)
+    return start, jnp.minimum(start + CELLS, cells) - 1
 
 
 def _digits_of(digits: Any, site: Any) -> Any:
