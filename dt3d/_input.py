@@ -46,15 +46,15 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
         msg = f"at most 2^25 = {MOST_SITES} sites can be numbered, got {len(given)}"
         raise ValueError(msg)
     with np.errstate(over="ignore"):
-        array = given.astype(np.float64)
+        # in C order, since every other order is another type to numba and would be compiled again
+        array = given.astype(np.float64, order="C")
     if given.dtype.kind in "iu" and (np.abs(array) > 2.0**53).any():
         msg = (
             "points have integers beyond 2^53, which float64 does not hold exactly; subtract an offset first"
         )
         raise ValueError(msg)
-    finite = np.isfinite(array).all(axis=1)
-    if not finite.all():
-        bad = np.flatnonzero(~finite)
+    if not np.isfinite(array).all():
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         msg = f"points must be finite: {len(bad)} rows have NaN or infinity, the first is row {bad[0]}"
         raise ValueError(msg)
     return array

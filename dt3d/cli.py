@@ -1,4 +1,4 @@
-"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`.
+"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`.
 
 Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C with status 130.
 """
@@ -6,6 +6,7 @@ Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C 
 from __future__ import annotations
 
 import inspect
+import logging
 import os
 import sys
 import warnings
@@ -47,6 +48,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     def one_line(message: Warning | str, *_: Any, **__: Any) -> None:
         errors.print(f"dt3d: warning: {message}", markup=False)
 
+    log = logging.getLogger("dt3d")
+    lines = _Lines(errors)
+    log.addHandler(lines)
     try:
         with warnings.catch_warnings():
             warnings.showwarning = one_line
@@ -64,7 +68,20 @@ def main(argv: Sequence[str] | None = None) -> int:
     except (ValueError, OSError, ImportError, dt3d.InconsistencyError) as error:
         errors.print(f"dt3d: {error}", markup=False)
         return 2
+    finally:
+        log.removeHandler(lines)
     return 0
+
+
+class _Lines(logging.Handler):
+    """Prints what is logged as single lines."""
+
+    def __init__(self, console: Console) -> None:
+        super().__init__()
+        self.console = console
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.console.print(f"dt3d: {record.getMessage()}", markup=False)
 
 
 @app.command
@@ -105,6 +122,7 @@ def triangulate(
     robustness: Literal["exact", "perturb"] = "exact",
     machine: Literal["device", "simulated"] | None = None,
     processors: int | None = None,
+    threads: int | None = None,
     dtype: Literal["float64", "float32"] | None = None,
     seed: int = 0,
     picture: Path | None = None,
@@ -127,6 +145,8 @@ def triangulate(
         ledger of their steps.
     processors
         Number of simulated processors (32 if left out).
+    threads
+        At most so many threads insert; as many as there are cores if left out.
     dtype
         Precision of the perturbed search.
     seed
@@ -146,8 +166,16 @@ def triangulate(
     console = Console(highlight=False)
     points = read_points(source)
     console.print(f"{len(points):,} points from {source}")
-    options = {"method": method, "robustness": robustness, "machine": on, "dtype": dtype, "seed": seed}
-    tri = _triangulate(console, points, **options)
+    tri = _triangulate(
+        console,
+        points,
+        method=method,
+        robustness=robustness,
+        machine=on,
+        threads=threads,
+        dtype=dtype,
+        seed=seed,
+    )
     console.print(stats_table(tri, str(source)))
     if on is not None and on.ledger is not None:
         console.print(ledger_table(on.ledger))
@@ -243,6 +271,65 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
         raise ValueError(msg) from None
     out.mkdir(parents=True, exist_ok=True)
     run(out, console, **options)
+
+
+@app.command
+def bench(
+    *,
+    sizes: Annotated[list[float], Parameter(consume_multiple=True)] = [1e4, 1e5],  # noqa: B006
+    distributions: Annotated[list[str], Parameter(consume_multiple=True)] = ["uniform"],  # noqa: B006
+    file: Annotated[list[Path], Parameter(consume_multiple=True)] = [],  # noqa: B006
+    against: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    threads: Annotated[list[int] | None, Parameter(consume_multiple=True)] = None,
+    repeats: int = 5,
+    limit: float = 60.0,
+    verify: bool = False,
+    out: Path = Path("out"),
+) -> None:
+    """Compare dt3d with SciPy and whatever else is installed; print a table, write bench.csv and bench.png.
+
+    Each library runs in a process of its own that has warmed up; rounds over all of them are interleaved.
+    Times are medians and leave out making and converting points. Memory is that of the first round.
+
+    Parameters
+    ----------
+    sizes
+        Numbers of sites: 1e4 1e5.
+    distributions
+        uniform gauss clusters sphere thin-sphere ball grid slab
+    file
+        Points of files, besides; without distributions, instead.
+    against
+        Some of: scipy vtk tetgen gmsh cgal. All that are installed if left out.
+    threads
+        Of dt3d: several numbers are compared, the others with the first.
+    repeats
+        Rounds.
+    limit
+        Seconds after which a run is ended, and after which a library gets no more rounds of a set.
+    verify
+        Prove the results by exact arithmetic, where a library shows its tetrahedra.
+    out
+        The folder for the files; made if it is not there.
+    """
+    from . import bench as benchmark
+
+    # a table in a file need not be as narrow as a terminal
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else 110)
+    sets = [benchmark.generated(name, round(n)) for name in distributions for n in sizes]
+    sets += [benchmark.from_file(path) for path in file]
+    if against is None:
+        against = [name for name, peer in benchmark.PEERS.items() if peer.installed]
+        missing = [name for name in benchmark.PEERS if name not in against]
+        if missing:
+            console.print(f"not installed, so left out: {', '.join(missing)}", markup=False)
+    limits = benchmark.Limits(repeats, limit)
+    out.mkdir(parents=True, exist_ok=True)
+    measured = []
+    for sites in sets:
+        with console.status("") as status:
+            measured += benchmark.compare(sites, against, threads or [None], limits, verify, status.update)
+    benchmark.publish(measured, out, console)
 
 
 def _triangulate(console: Console, points: Any, **options: Any) -> Any:

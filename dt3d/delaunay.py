@@ -51,8 +51,8 @@ class Delaunay:
         Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
         machines give the same tetrahedra.
     threads : int, optional
-        At most so many threads insert at the same time. By default as many as this process has cores, or
-        fewer where more do not pay. The result does not depend on it.
+        At most so many threads insert at the same time, and no more than this process has cores. By default
+        as many as cores, or fewer where more do not pay. The result does not depend on it.
     dtype : float64 or float32, optional
         Working precision, float64 by default. Single precision is for experiments with
         ``robustness="perturb"``: it decides less.
@@ -146,8 +146,10 @@ class Delaunay:
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
     ) -> None:
+        from ._compiling import announce_compilation
         from .insertion import triangulate
 
+        announce_compilation()
         stretches = itertools.count(1)
         outcome = triangulate(
             exactly_scaled(self.points),

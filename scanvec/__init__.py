@@ -17,13 +17,22 @@ G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 
 # cost models, and their calibration
 from ._calibration import calibrate
+
+# exclusive access
+from ._conflict import ConcurrentAccessError, Conflict
 from ._connection_machines import CM2, CM5
 
 # machines, vectors and ledgers
 from ._device import Device
-from ._entry import Conflict, Entry, Row
+from ._entry import Entry, Row
+
+# scalars
+from ._front_end import extract, insert
 from ._ledger import Ledger
 from ._machine import Machine
+
+# two records into one
+from ._merge import flag_merge, select
 from ._model import Constant, Model
 
 # operators
@@ -40,12 +49,13 @@ from ._scan import (
     backscan_inclusive,
     copy_scan,
     enumerate,
+    op_distribute,
     reduce,
     scan,
     scan_inclusive,
 )
 from ._segments import Segments
-from ._simulated import ConcurrentAccessError, Simulated
+from ._simulated import Simulated
 
 # sorting and sets
 from ._sort import rank, segmented_sort, sort, union, unique
@@ -56,7 +66,8 @@ __all__ = [
     "CM2", "CM5", "CRCW_PRAM", "EREW_PRAM", "Hypercube", "Mesh2D", "SCAN",
     "ConcurrentAccessError", "Conflict", "Constant", "Device", "Entry", "Ledger", "Machine", "Model",
     "Monoid", "Row", "Segments", "Simulated", "Vector",
-    "append", "backscan", "backscan_inclusive", "calibrate", "copy_scan", "distribute", "enumerate", "get",
-    "pack", "pack_index", "permute", "rank", "reduce", "scan", "scan_inclusive", "segmented_sort", "send",
-    "sort", "split", "union", "unique",
+    "append", "backscan", "backscan_inclusive", "calibrate", "copy_scan", "distribute", "enumerate",
+    "extract", "flag_merge", "get", "insert", "op_distribute", "pack", "pack_index", "permute", "rank",
+    "reduce", "scan", "scan_inclusive", "segmented_sort", "select", "send", "sort", "split", "union",
+    "unique",
 ]  # fmt: skip

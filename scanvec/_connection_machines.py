@@ -2,10 +2,12 @@
 
 The constants say where they come from:
 
-* CMMD 3.1 on the CM-5: a message takes 80 us of software, and 8.7 MB/s point to point; a combining operation
-  on the control network 5 us for integers, 25 us for floats.
-* C. E. Leiserson and others, The Network Architecture of the Connection Machine CM-5, SPAA 1992: the fat tree
-  has 20 MB/s a node within 4 nodes, 10 within 16, and 5 beyond.
+* D. E. Culler and others, LogP: Towards a Realistic Model of Parallel Computation, PPoPP 1993, of Active
+  Messages on the CM-5 (T. von Eicken and others, ISCA 1992): a packet of 16 bytes and an address takes 2 us
+  of either node, and a node gets rid of one in 4 us, as the fat tree has 5 MB/s for it (C. E. Leiserson and
+  others, The Network Architecture of the Connection Machine CM-5, SPAA 1992).
+* CMMD 3.1 on the CM-5: combining an integer over the control network takes 5 us. Its messages take 80 us, but
+  they wait for the receiver's consent, which compiled C* programs do not need.
 * Y. A. Teng, F. Sullivan, I. Beichl, E. Puppo, Supercomputing '93, 112-121, Table 1: the times that
   "calibrated" refers to.
 * G. E. Blelloch, Scans as Primitive Parallel Operations, IEEE Transactions on Computers 38, 1989: a scan of
@@ -15,6 +17,7 @@ The constants say where they come from:
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import ceil
 
 from ._entry import Entry
 from ._model import CALIBRATED, ESTIMATE, SOURCED, Constant, Model, used_processors
@@ -29,23 +32,22 @@ def _cm5(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
     if entry.primitive == "scan":
         across = c["combine"] if used_processors(entry) > 1 else 0.0
         return c["issue"] + entry.operations * (local_scan(entry) * c["element"] + across)
-    byte = c["byte_within_16"] if processors <= 16 else c["byte"]
-    return c["issue"] + entry.vp_ratio * c["element"] + entry.busiest * (c["message"] + entry.bytes * byte)
+    packets = entry.busiest * ceil(max(1, entry.bytes) / c["packet_bytes"])
+    return c["issue"] + entry.vp_ratio * c["route"] + packets * c["packet"]
 
 
 CM5 = Model(
     "CM5",
     "SPARC nodes without vector units, a fat tree, a control network that scans. A step is issued to all "
-    "nodes, which loop over elements and operations; the busiest node's messages come on top",
+    "nodes, which loop over elements and operations; a get or a send handles each element, wherever it "
+    "leads, and the busiest node's packets come on top",
     _cm5,
     {
-        "issue": Constant(1.43e-4, "s a step", CALIBRATED, TABLE1),
-        "element": Constant(2.08e-6, "s an operation and element", CALIBRATED, TABLE1),
-        "message": Constant(8e-5, "s a message", SOURCED, "CMMD 3.1; C* may need less, see table2"),
-        "byte": Constant(1 / 5e6, "s a byte", SOURCED, "Leiserson et al. 1992: 5 MB/s beyond 16 nodes"),
-        "byte_within_16": Constant(
-            1 / 8.7e6, "s a byte", SOURCED, "CMMD 3.1: 8.7 MB/s, less than the tree has"
-        ),
+        "issue": Constant(3.87e-4, "s a step", CALIBRATED, TABLE1),
+        "element": Constant(1.34e-6, "s an operation and element", CALIBRATED, TABLE1),
+        "route": Constant(2.5e-5, "s an element of a get or send", CALIBRATED, TABLE1),
+        "packet": Constant(4e-6, "s a packet", SOURCED, "Culler et al. 1993: 2 us at either end"),
+        "packet_bytes": Constant(16, "bytes a packet", SOURCED, "Culler et al. 1993, without the address"),
         "combine": Constant(5e-6, "s a scan", SOURCED, "CMMD 3.1: an integer over the control network"),
     },
 )

@@ -69,32 +69,3 @@ class Row:
     """Sum of the busiest processors' messages: the time in messages."""
     seconds: float | None = None
     """Predicted by the ledger's model; None without one."""
-
-
-@dataclass(frozen=True)
-class Conflict:
-    """A step of a machine with exclusive access that read or wrote one place more than once.
-
-    Attributes
-    ----------
-    phase, operation, primitive : str
-        As in `Entry`.
-    step : int
-        Which step of the ledger it was, from 0.
-    accesses : int
-        Elements that read or wrote the place most in demand.
-    """
-
-    phase: str
-    operation: str
-    primitive: str
-    step: int
-    accesses: int
-
-    def __str__(self) -> str:
-        verb = "read" if self.primitive == "get" else "written"
-        where = f" in phase {self.phase!r}" if self.phase else ""
-        return (
-            f"step {self.step}: {self.primitive}, called by {self.operation}{where}: one place was {verb} by "
-            f"{self.accesses} elements at once"
-        )

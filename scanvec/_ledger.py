@@ -5,19 +5,17 @@ It counts; two runs of one program give the same ledger. A cost model turns its 
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field, fields
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from ._entry import Conflict, Entry, Row
+from . import _tables
+from ._conflict import Conflict
+from ._entry import Entry, Row
 from ._model import Model, check_model
-
-KEYS = ("phase", "operation", "primitive")
+from ._names import Names
 
 
 @dataclass
@@ -34,15 +32,15 @@ class Ledger:
     handled : dict of str to ndarray of int64 (P,)
         By phase, the messages of each processor: sent or received, whichever is more in a step. Counted on
         the machine itself, not for its further numbers of processors.
+    names : Names
+        The phase and the operation that are running.
     """
 
     entries: list[Entry] = field(default_factory=list)
     processors: int = 1
     model: Model | None = None
     handled: dict[str, np.ndarray] = field(default_factory=dict, repr=False, compare=False)
-    _phase: list[str] = field(default_factory=list, repr=False)
-    _visits: dict[str, int] = field(default_factory=dict, repr=False)
-    _operation: list[str] = field(default_factory=list, repr=False)
+    names: Names = field(default_factory=Names, repr=False, compare=False)
 
     @property
     def steps(self) -> int:
@@ -116,11 +114,10 @@ class Ledger:
         accesses: int = 0,
     ) -> None:
         """Enter one step; machines call this."""
-        phase, operation = self.names(primitive)
         self.entries.append(
             Entry(
-                phase=phase,
-                operation=operation,
+                phase=self.names.phase,
+                operation=self.names.operation(primitive),
                 primitive=primitive,
                 elements=elements,
                 vp_ratio=vp_ratio,
@@ -129,16 +126,14 @@ class Ledger:
                 bytes=size,
                 operations=operations,
                 accesses=accesses,
-                visit=self._visits.get(phase, 0),
+                visit=self.names.visit,
             )
         )
 
     def add_handled(self, messages: np.ndarray) -> None:
         """Add each processor's messages in one step; machines call this."""
-        phase = self._phase[-1] if self._phase else ""
-        if phase not in self.handled:
-            self.handled[phase] = np.zeros(self.processors, np.int64)
-        self.handled[phase] += messages
+        load = self.handled.setdefault(self.names.phase, np.zeros(self.processors, np.int64))
+        load += messages
 
     def held(self, phase: str | None = None) -> np.ndarray:
         """Elements of each processor, summed over the steps (of a phase): int64 (P,)."""
@@ -151,33 +146,13 @@ class Ledger:
                 edges[min(full + 1, self.processors)] -= rest
         return np.cumsum(edges[:-1])
 
-    @contextmanager
-    def phase(self, name: str) -> Iterator[None]:
+    def phase(self, name: str) -> AbstractContextManager[None]:
         """Name the phase of the entries made inside."""
-        self._phase.append(name)
-        self._visits[name] = self._visits.get(name, 0) + 1
-        try:
-            yield
-        finally:
-            self._phase.pop()
+        return self.names.in_phase(name)
 
-    @contextmanager
-    def operation(self, name: str) -> Iterator[None]:
+    def operation(self, name: str) -> AbstractContextManager[None]:
         """Name the composed operation of the entries made inside; the outermost name counts."""
-        self._operation.append(name)
-        try:
-            yield
-        finally:
-            self._operation.pop()
-
-    def names(self, primitive: str) -> tuple[str, str]:
-        """The phase and the operation that an entry made now would have."""
-        phase = self._phase[-1] if self._phase else ""
-        return phase, self._operation[0] if self._operation else primitive
-
-    def share_names(self, other: Ledger) -> None:
-        """Take phases and operations from another ledger, of the same steps on another machine."""
-        self._phase, self._visits, self._operation = other._phase, other._visits, other._operation
+        return self.names.in_operation(name)
 
     def table(self, *by: str) -> list[Row]:
         """Sums by the given keys ("phase", "operation", "primitive"), in order of first appearance.
@@ -189,15 +164,8 @@ class Ledger:
         ValueError
             For another key.
         """
-        by = by or ("operation", "primitive")
-        for key in by:
-            if key not in KEYS:
-                msg = f"cannot group the ledger by {key!r}; use {', '.join(KEYS)}"
-                raise ValueError(msg)
-        groups: dict[tuple[str, ...], list[Entry]] = {}
-        for e in self.entries:
-            groups.setdefault(tuple(getattr(e, k) if k in by else "" for k in KEYS), []).append(e)
-        return [self._row(key, es) for key, es in groups.items()]
+        groups = _tables.groups(self.entries, by or ("operation", "primitive"))
+        return [_tables.add_up(key, es, self.model, self.processors) for key, es in groups.items()]
 
     def by_phase(self) -> dict[str, Row]:
         """Sums of each phase, in order of first appearance."""
@@ -209,45 +177,12 @@ class Ledger:
         for e in self.entries:
             if e.phase in phases:
                 visits.setdefault(e.visit, []).append(e)
-        return [self._row((" + ".join(phases), "", ""), visits[k]) for k in sorted(visits)]
-
-    def _row(self, key: tuple[str, ...], entries: list[Entry]) -> Row:
-        phase, operation, primitive = key
-        seconds = None
-        if self.model is not None:
-            seconds = sum(self.model.seconds(e, self.processors) for e in entries)
-        return Row(
-            phase=phase,
-            operation=operation,
-            primitive=primitive,
-            steps=len(entries),
-            elements=sum(e.elements for e in entries),
-            vp_steps=sum(e.vp_ratio for e in entries),
-            max_vp_ratio=max(e.vp_ratio for e in entries),
-            messages=sum(e.messages for e in entries),
-            busiest=sum(e.busiest for e in entries),
-            seconds=seconds,
-        )
+        key = (" + ".join(phases), "", "")
+        return [_tables.add_up(key, visits[k], self.model, self.processors) for k in sorted(visits)]
 
     def to_csv(self, path: str | Path) -> None:
         """Write one line a step: the attributes of `Entry`, and predicted seconds where there is a model."""
-        names = [f.name for f in fields(Entry)]
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow([*names, *(["seconds"] if self.model else [])])
-            for e in self.entries:
-                values: list[Any] = [getattr(e, n) for n in names]
-                if self.model is not None:
-                    values.append(self.model.seconds(e, self.processors))
-                writer.writerow(values)
+        _tables.write_csv(Path(path), self.entries, self.model, self.processors)
 
     def __str__(self) -> str:
-        names = [f.name for f in fields(Row) if f.name != "phase" and (self.model or f.name != "seconds")]
-        rows = [[_text(getattr(r, n)) for n in names] for r in self.table()]
-        widths = [max(len(x) for x in col) for col in zip(names, *rows, strict=True)]
-        lines = ["  ".join(x.rjust(w) for x, w in zip(r, widths, strict=True)) for r in [names, *rows]]
-        return "\n".join(lines)
-
-
-def _text(value: Any) -> str:
-    return f"{value:.6f}" if isinstance(value, float) else str(value)
+        return _tables.as_text(self.table(), seconds=self.model is not None)

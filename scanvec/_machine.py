@@ -303,9 +303,7 @@ class Machine(abc.ABC):
 
     # the ledger; nothing happens on machines that keep none
 
-    def _charge(
-        self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]
-    ) -> None:
+    def _charge(self, primitive: str, n: int, loads: list[int], handled: Any, vectors: list[Vector]) -> None:
         """Enter a step that moved elements between processors."""
 
     @contextmanager

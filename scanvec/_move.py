@@ -9,8 +9,9 @@ import jax
 from . import _local
 from ._checks import check_flags
 from ._composed import composed
-from ._monoid import ADD, Monoid
+from ._monoid import ADD, COPY, Monoid
 from ._records import check_alike, is_vector, length_of, machine_of, structure_of, vectors_of
+from ._scan import backscan_inclusive, scan_inclusive
 from ._segments import Segments
 from ._vector import Vector
 
@@ -78,23 +79,40 @@ def pack_index(flags: Vector) -> Vector:
 
 
 @composed
-def split(record: Any, flags: Vector) -> Any:
+def split(record: Any, flags: Vector, segments: Segments | None = None) -> Any:
     """The elements whose flag is clear, in order, then those whose flag is set. Five steps, n elements.
 
-    Blelloch 1990, section 3.4.1: the step of the radix sort.
+    With segments each is split by itself, in seven steps. Blelloch 1990, section 3.4.1: the step of the radix
+    sort; by segments, of quicksort.
     """
     n = length_of(record)
     if not n:
         return record
     machine = machine_of(record)
-    ups = _count(flags)
-    clear = n - int(machine.item(ups, -1))
-    target = machine.map(_split_target, flags, ups, machine.iota(n), clear)
+    if segments is None:
+        ups = _count(flags)
+        clear = n - int(machine.item(ups, -1))
+        target = machine.map(_split_target, flags, ups, machine.iota(n), clear)
+    else:
+        target = _segmented_split_target(flags, segments)
     return machine.send(record, target, _local.UNIQUE, _blank(record, n))
 
 
 def _split_target(flag: Any, ups: Any, i: Any, clear: Any) -> Any:
     return jax.numpy.where(flag, clear + ups - 1, i - ups)
+
+
+def _segmented_split_target(flags: Vector, segments: Segments) -> Vector:
+    check_flags(flags, "the flags")
+    machine = flags.machine
+    ups = scan_inclusive(flags, ADD, segments)
+    total = backscan_inclusive(ups, COPY, segments)
+    start, length = machine.get((segments.starts, segments.lengths), segments.ids)
+    return machine.map(_target_in_segment, flags, ups, machine.iota(len(flags)), total, start, length)
+
+
+def _target_in_segment(flag: Any, ups: Any, i: Any, total: Any, start: Any, length: Any) -> Any:
+    return start + _split_target(flag, ups, i - start, length - total)
 
 
 @composed

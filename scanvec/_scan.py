@@ -106,3 +106,13 @@ def reduce(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
     return jax.tree.map(
         lambda v, e: machine.get(v, last, where=occupied, otherwise=e), running, identity, is_leaf=is_vector
     )
+
+
+@composed
+def op_distribute(record: Any, op: Monoid, segments: Segments | None = None) -> Any:
+    """r[i] = op(v[s], ..., v[e]), over the whole of i's segment (all elements without segments).
+
+    Blelloch's +-distribute, max-distribute, ...: a scan, and its last element copied backward. Two steps, n
+    elements; booleans are added and multiplied as int32, which is one more.
+    """
+    return backscan_inclusive(scan_inclusive(record, op, segments), COPY, segments)

@@ -11,6 +11,7 @@ import scanvec as sv
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
 
 def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
@@ -18,6 +19,19 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) 
         writer = csv.writer(file)
         writer.writerow(header)
         writer.writerows(rows)
+
+
+def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table:
+    """A table with columns of texts and of numbers, none of which is cut where a screen is narrow."""
+    from rich.box import SIMPLE
+    from rich.table import Table
+
+    table = Table(title=title, box=SIMPLE)
+    for column in texts:
+        table.add_column(column, no_wrap=True)
+    for column in numbers:
+        table.add_column(column, justify="right", overflow="fold")
+    return table
 
 
 def panels(count: int, width: float = 5.0) -> tuple[Any, list[Any]]:

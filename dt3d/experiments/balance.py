@@ -20,7 +20,7 @@ import scanvec.plot
 from .._stats import Statistics
 from ..delaunay import Delaunay
 from . import sets
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 from .paper import PROCESSORS
 from .runs import MAIN_LOOP, SEED, cm5
 
@@ -136,15 +136,13 @@ def balance(
     Also what the search itself examines, whose cells follow the clusters. Writes ``balance.csv`` and
     ``balance.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     figure, axes = panels(4, 4.5)
-    table = Table(
-        title=f"{sites} sites, uniform cells, {PROCESSORS} processors: time over that of perfect balance"
+    table = new_table(
+        f"{sites} sites, uniform cells, {PROCESSORS} processors: time over that of perfect balance",
+        ("sites", "scheme"),
+        ("each by itself", "in lock-step", "sites an expansion"),
     )
-    for column in ("sites", "scheme", "each by itself", "in lock-step", "sites an expansion"):
-        table.add_column(column, justify="left" if column in ("sites", "scheme") else "right")
     result, lines, examined = {}, [], {}
     for k, (name, points) in enumerate(
         {"uniform": sets.rand(sites, seed), "clusters": sets.clusters(sites, seed)}.items()

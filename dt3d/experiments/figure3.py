@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 from .paper import MOST_BY_ITERATION, RANDOM
 from .runs import SEED, Measured, measure, points_of
 
@@ -22,8 +22,6 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
     Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv`` and
     ``figure3.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     found: dict[str, Measured] = {}
     with console.status("...") as status:
@@ -31,17 +29,20 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
             if row.sites <= most_sites:
                 status.update(f"{row.name} ...")
                 found[row.name] = measure(points_of(row.name, seed), sv.Device())
-    table = Table(title="Teng et al. 1993, Figure 3: tetrahedra found in each iteration (ours)")
+    table = new_table(
+        "Teng et al. 1993, Figure 3: tetrahedra found in each iteration, by sites (ours)",
+        ("iteration",),
+        (name.removeprefix("rand.") for name in found),
+    )
     longest = max(len(m.per_iteration) for m in found.values())
-    by_the_fourth = f"by the {MOST_BY_ITERATION}th"
-    for column in ("set", *map(str, range(1, longest + 1)), by_the_fourth, "depth: paper / ours"):
-        table.add_column(column, justify="left" if column == "set" else "right")
-    for row in RANDOM:
-        if row.name in found:
-            m = found[row.name]
-            cells = [*map(str, m.per_iteration), *[""] * (longest - len(m.per_iteration))]
-            share = _share(m, MOST_BY_ITERATION)
-            table.add_row(row.name, *cells, f"{100 * share:.1f} %", f"{row.depth} / {m.depth}")
+    for k in range(longest):
+        news = [str(m.per_iteration[k]) if k < len(m.per_iteration) else "" for m in found.values()]
+        table.add_row(str(k + 1), *news)
+    shares = [f"{100 * _share(m, MOST_BY_ITERATION):.1f}" for m in found.values()]
+    table.add_row(f"% by the {MOST_BY_ITERATION}th", *shares)
+    depths = {row.name: row.depth for row in RANDOM}
+    table.add_row("depth", *(str(m.depth) for m in found.values()))
+    table.add_row("depth, paper", *(str(depths[name]) for name in found))
     console.print(table)
     least = min(_share(m, MOST_BY_ITERATION) for m in found.values())
     console.print(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import panels, print_model, write_csv, wrote
+from ._output import new_table, panels, print_model, write_csv, wrote
 from .runs import SEED, measure, points_of
 
 if TYPE_CHECKING:
@@ -34,15 +34,13 @@ def machines(out: Path, console: Console, *, sites: int = 2000, seed: int = SEED
 
     Writes ``machines.csv`` and ``machines.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     with console.status(f"{sites} sites, loads of {len(PROCESSORS)} machines ..."):
         ledgers = run(sites, seed=seed)
     seconds = {m.name: {p: ledger.under(m).seconds for p, ledger in ledgers.items()} for m in MODELS}
-    table = Table(title=f"Seconds of the main loop for {sites} random sites, by processors")
-    for column in ("processors", *seconds):
-        table.add_column(column, justify="right")
+    table = new_table(
+        f"Seconds of the main loop for {sites} random sites, by processors", ("processors",), seconds
+    )
     for p in ledgers:
         table.add_row(f"{p:,}", *(f"{by[p]:.4g}" for by in seconds.values()))
     console.print(table)

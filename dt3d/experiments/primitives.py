@@ -15,7 +15,7 @@ import numpy as np
 
 import scanvec as sv
 
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -32,6 +32,8 @@ class Inputs(NamedTuple):
     order: sv.Vector  # a random permutation
     counts: sv.Vector  # 0, 1, 2, 0, ...; they add up to about n
     segments: sv.Segments  # of four elements
+    clear: sv.Vector  # those whose flag is clear, and those whose flag is set
+    set: sv.Vector
 
 
 @dataclass(frozen=True)
@@ -74,12 +76,13 @@ def _make(
 
 
 CATALOGUE = (
-    _make("v + w", "p-add and other elementwise instructions", lambda x: x.v + x.order, 1),
-    _make("map(where=)", "p-select", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
+    _make("v + w", "p-+, p-<, ...", lambda x: x.v + x.order, 1),
+    _make("select", "p-select", lambda x: sv.select(x.flags, x.v, x.order), 1),
+    _make("map(where=)", "-", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
     _make("iota", "index", lambda x: x.v.machine.iota(len(x.v)), 1),
     _make("permute", "permute", lambda x: sv.permute(x.v, x.order), 1),
-    _make("get", "permute, backwards; concurrent read", lambda x: sv.get(x.v, x.order), 1),
-    _make("send", "combining permute; concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
+    _make("get", "concurrent read", lambda x: sv.get(x.v, x.order), 1),
+    _make("send", "concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
     _make("scan(ADD)", "+-scan", lambda x: sv.scan(x.v, sv.ADD), 1),
     _make("scan(MAX)", "max-scan", lambda x: sv.scan(x.v, sv.MAX), 1),
     _make("scan(segments)", "seg-+-scan", lambda x: sv.scan(x.v, sv.ADD, x.segments), 1),
@@ -88,9 +91,13 @@ CATALOGUE = (
     _make("enumerate", "enumerate", lambda x: sv.enumerate(x.flags), 2),
     _make("reduce", "+-reduce", lambda x: sv.reduce(x.v, sv.ADD), 1),
     _make("reduce(segments)", "seg-+-reduce", lambda x: sv.reduce(x.v, sv.ADD, x.segments), 5, _at_most_all),
+    _make("op_distribute", "+-distribute", lambda x: sv.op_distribute(x.v, sv.ADD), 2),
     _make("pack", "pack", lambda x: sv.pack(x.v, x.flags), 4),
     _make("pack_index", "pack of index", lambda x: sv.pack_index(x.flags), 5),
     _make("split", "split", lambda x: sv.split(x.v, x.flags), 5),
+    _make("split(segments)", "seg-split", lambda x: sv.split(x.v, x.flags, x.segments), 7),
+    _make("flag_merge", "flag-merge", lambda x: sv.flag_merge(x.clear, x.set, x.flags), 7),
+    _make("insert", "insert", lambda x: sv.insert(x.v, 0, 1), 1),
     _make("append", "append", lambda x: sv.append(x.v, x.v), 5, _up_to_twice),
     _make("distribute", "distribute, allocate", lambda x: sv.distribute(x.v, x.counts), 12, _up_to_twice),
     Primitive("rank", "rank", lambda x: sv.rank(x.v), lambda bits: 7 + 6 * bits, _each_step_all),
@@ -124,12 +131,15 @@ def measurements(sizes: tuple[int, ...] = SIZES) -> Iterator[Measurement]:
         cm = sv.Simulated(PROCESSORS, model=sv.SCAN)
         values = rng.integers(0, 16, n).astype(np.int32)
         values[:2] = 0, 15
+        flags = np.arange(n) % 3 == 1
         inputs = Inputs(
             cm.vector(values),
-            cm.vector(np.arange(n) % 3 == 1),
+            cm.vector(flags),
             cm.vector(rng.permutation(n).astype(np.int32)),
             cm.vector((np.arange(n) % 3).astype(np.int32)),
             sv.Segments.from_lengths(cm.full(n // 4, 4, np.int32)),
+            cm.vector(values[~flags]),
+            cm.vector(values[flags]),
         )
         differ = int(np.bitwise_or.reduce(values ^ values[0])).bit_count()
         for primitive in CATALOGUE:
@@ -145,22 +155,15 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
 
     Writes ``primitives.csv`` and ``primitives.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     with console.status("..."):
         found = list(measurements())
     largest = SIZES[-1]
-    table = Table(title=f"Steps and elements of {largest:,} elements on {PROCESSORS} processors")
-    for column in (
-        "scanvec",
-        "Blelloch 1990",
-        "steps: stated / counted",
-        "elements / n",
-        "VP steps / step",
-        "holds",
-    ):
-        table.add_column(column, justify="left" if column in ("scanvec", "Blelloch 1990") else "right")
+    table = new_table(
+        f"Steps and elements of {largest:,} elements on {PROCESSORS} processors",
+        ("scanvec", "Blelloch 1990"),
+        ("steps: stated / counted", "elements / n", "VP steps / step", "holds"),
+    )
     for m in found:
         if m.n == largest:
             table.add_row(
@@ -186,14 +189,31 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
             for m in found
         ],
     )
-    figure, axes = panels(2, 6.0)
-    for primitive in CATALOGUE:
-        own = [m for m in found if m.primitive is primitive]
-        axes[0].loglog([m.n for m in own], [m.row.elements for m in own], "-", label=primitive.name)
-        axes[1].semilogx([m.n for m in own], [m.row.steps for m in own], "-", label=primitive.name)
-    axes[0].set(xlabel="n", ylabel="elements")
-    axes[1].set(xlabel="n", ylabel="steps")
-    axes[1].legend(fontsize=5, ncols=2)
-    figure.savefig(out / "primitives.png", dpi=120)
+    _draw(found, out / "primitives.png")
     wrote(console, out, "primitives")
     return found
+
+
+def _draw(found: list[Measurement], path: Path) -> None:
+    """A row for each operation: its steps, stated and counted, and its elements over n at every size."""
+    figure, (left, right) = panels(2, 4.5)
+    figure.set_figheight(1 + 0.21 * len(CATALOGUE))
+    largest = [m for m in found if m.n == SIZES[-1]]
+    row = {m.primitive.name: k for k, m in enumerate(largest)}
+    left.barh(list(row.values()), [m.row.steps for m in largest], color="tab:blue", label="counted")
+    left.plot([m.stated_steps for m in largest], list(row.values()), "k|", ms=9, mew=2, label="stated")
+    for n, colour in zip(SIZES, ("0.8", "0.6", "0.4", "0.2", "tab:orange"), strict=True):
+        own = [m for m in found if m.n == n]
+        x, y = [m.row.elements / n for m in own], [row[m.primitive.name] for m in own]
+        right.plot(x, y, "o", ms=9 - 1.4 * SIZES.index(n), color=colour, label=f"n = {n:,}")
+    left.set(title=f"steps, n = {SIZES[-1]:,}", xscale="log", xlim=(0.8, None))
+    right.set(title="elements / n", xscale="log", xlim=(0.8, None))
+    for ax, names in ((left, list(row)), (right, [])):
+        ax.set_yticks(range(len(names)) if names else [], names, fontsize=8)
+        ax.set_ylim(len(row) - 0.5, -0.5)
+        ax.grid(axis="x", color="0.9")
+        ax.set_axisbelow(True)
+        ax.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
+        ax.minorticks_off()
+        ax.legend(fontsize=8, loc="upper right")
+    figure.savefig(path, dpi=120)

@@ -16,7 +16,7 @@ from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
 from ..extrapolation import normalise, perturb, triangulate
 from ..extrapolation.perturbation import MAGNITUDE
-from ._output import panels, write_csv, wrote
+from ._output import new_table, panels, write_csv, wrote
 from .paper import TABLE3, TOO_MANY
 from .runs import SEED, points_of
 
@@ -80,8 +80,6 @@ def table3(
 
     Random sets differ, so others are tried too. Writes ``table3.csv`` and ``table3.png`` into ``out``.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     outcomes: dict[str, dict[str, Outcome]] = {}
     others: dict[str, list[Outcome]] = {}
@@ -94,9 +92,11 @@ def table3(
             outcomes[name] = {mode: attempt(points, mode) for mode in MODES}
             more = range(1, other_sets + 1) if name.startswith("rand.") else ()
             others[name] = [attempt(points_of(name, seed + k), SAME) for k in more]
-    table = Table(title="Teng et al. 1993, Table 3: inconsistencies, paper / ours")
-    for column in ("set", "single", "other sets", "single, larger perturbation", "double", "exact"):
-        table.add_column(column, justify="left" if column == "set" else "right")
+    table = new_table(
+        "Teng et al. 1993, Table 3: inconsistencies, paper / ours",
+        ("set",),
+        ("single", "other sets", "single, larger perturbation", "double", "exact"),
+    )
     for name, by_mode in outcomes.items():
         table.add_row(
             name,
@@ -132,18 +132,29 @@ def _power(dtype: Any) -> str:
 
 
 def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcome]], path: Path) -> None:
-    figure, (ax,) = panels(1, 6.0)
-    for k, (name, by_mode) in enumerate(outcomes.items()):
-        ax.plot([k] * len(others[name]), [o.inconsistencies for o in others[name]], ".", color="0.6")
-        for shift, (mode, colour) in enumerate(
-            zip(MODES, ("tab:blue", "tab:cyan", "tab:green", "black"), strict=True)
-        ):
-            one = by_mode[mode]
-            marker = "o" if one.finished else "x"
-            ax.plot(k + shift / 10, one.inconsistencies, marker, color=colour, label=mode if not k else None)
-        if isinstance(TABLE3[name], int):
-            ax.plot(k - 0.1, TABLE3[name], "s", color="tab:orange", label=None if k else "single, paper")
+    """A bar for the paper and for each mode, with its number; a hatched one to the top for too many."""
+    figure, (ax,) = panels(1, 8.0)
+    colours = ("tab:orange", "tab:blue", "tab:cyan", "tab:green", "black")
+    columns = {"single, paper": [str(TABLE3[name]) for name in outcomes]}
+    columns |= {mode: [str(by_mode[mode]) for by_mode in outcomes.values()] for mode in MODES}
+    extra = [(k, o.inconsistencies) for k, name in enumerate(outcomes) for o in others[name] if o.finished]
+    counted = [int(c) for column in columns.values() for c in column if c != TOO_MANY]
+    top = 1.25 * max(1, *counted, *(c for _, c in extra))
+    width = 0.8 / len(columns)
+    for k, ((label, column), colour) in enumerate(zip(columns.items(), colours, strict=True)):
+        shift = (k - (len(columns) - 1) / 2) * width
+        heights = [top if c == TOO_MANY else int(c) for c in column]
+        bars = ax.bar(np.arange(len(column)) + shift, heights, 0.9 * width, color=colour, label=label)
+        ax.bar_label(bars, ["" if c == TOO_MANY else c for c in column], fontsize=8)
+        for bar, c in zip(bars, column, strict=True):
+            if c == TOO_MANY:
+                bar.set(facecolor="none", edgecolor=colour, hatch="//")
+        if label == SAME:
+            x, y = [at + shift + width / 3 for at, _ in extra], [c for _, c in extra]
+            ax.plot(
+                x, y, "o", ms=4, mfc="white", mec=colour, clip_on=False, label="single, other random sets"
+            )
     ax.set_xticks(range(len(outcomes)), list(outcomes))
-    ax.set(ylabel="inconsistencies (x: given up)", yscale="symlog", ylim=(-0.5, 1000))
-    ax.legend(fontsize=8)
+    ax.set(ylabel="inconsistencies (hatched: too many, given up)", ylim=(0, top))
+    ax.legend(fontsize=8, loc="upper left")
     figure.savefig(path, dpi=120)

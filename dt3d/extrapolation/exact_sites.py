@@ -35,6 +35,14 @@ def check_magnitudes(coordinates: np.ndarray) -> None:
         raise ValueError(msg)
 
 
+def small_integers(limbs: np.ndarray) -> bool:
+    """Whether coordinates, digits (L, n, 3), are small integers times one power of two, up to an offset."""
+    if len(limbs) > 2:
+        return False
+    values = sum(x.astype(np.int64) << (BITS * k) for k, x in enumerate(limbs))
+    return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
+
+
 @dataclass(frozen=True)
 class ExactSites:
     """What exact decisions need of the sites of some buckets.
@@ -56,10 +64,7 @@ class ExactSites:
     @cached_property
     def lattice(self) -> bool:
         """Whether all coordinates are small integers times one power of two, up to an offset."""
-        if len(self._limbs) > 2:
-            return False
-        values = sum(x.astype(np.int64) << (BITS * k) for k, x in enumerate(self._limbs))
-        return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
+        return small_integers(self._limbs)
 
     @cached_property
     def digits(self) -> tuple[tuple[sv.Vector, ...], ...]:

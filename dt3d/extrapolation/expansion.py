@@ -64,9 +64,9 @@ def _homes(query: OpenFace) -> tuple[Any, Any, Any]:
     return query.face.a, query.face.b, query.face.c
 
 
-def _trial(query: OpenFace, k: Any, unit: Any) -> Any:
+def _trial(centre: Point, k: Any, unit: Any) -> Any:
     """Signed distances of half the radius of the face's circumcircle, then of 2, 8, 32 of them."""
-    distance = norm(query.frame.centre) * jnp.left_shift(1, 2 * k) / 2
+    distance = norm(centre) * jnp.left_shift(1, 2 * k) / 2
     return jnp.where(k < TRIALS, distance / unit, jnp.inf)
 
 
@@ -102,7 +102,7 @@ def _perturbed_admits(query: OpenFace, distance: Any, low: Point, high: Point) -
 
 
 def _perturbed_trial(query: OpenFace, k: Any) -> Any:
-    return _trial(query, k, 1)
+    return _trial(query.frame.centre, k, 1)
 
 
 PERTURBED = Question(_perturbed_score, _homes, _perturbed_region, _perturbed_admits, _perturbed_trial)
@@ -121,20 +121,29 @@ def _bounds(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
     return jnp.where(own, jnp.inf, low), jnp.where(own, jnp.inf, high)
 
 
-def _region(query: OpenFace, bound: Any, grid: Grid) -> Box:
-    f = query.frame
+def cap_cells(f: filtered_distance.Frame, bound: Any, grid: Grid) -> Box:
+    """All cells that could hold a site above a face whose signed distance is at most ``bound``."""
     # what the errors of centre and normal can move, and the roundings of the cap itself
     reach = norm(f.centre) + jnp.abs(bound) * norm(f.normal)
     slack = 4 * (f.blur + jnp.abs(bound) * norm(f.doubt)) + 64 * epsilon(f.blur) * reach
     return cap_box(f.origin, f.normal, f.doubt, f.centre, bound / 2, slack, grid)
 
 
+def _region(query: OpenFace, bound: Any, grid: Grid) -> Box:
+    return cap_cells(query.frame, bound, grid)
+
+
 def _may_hold(query: OpenFace, bound: Any, low: Point, high: Point) -> Any:
     return filtered_distance.may_hold(query.frame, bound, low, high)
 
 
+def trial_bound(f: filtered_distance.Frame, k: Any) -> Any:
+    """The k-th bound to try; inf from `TRIALS` on."""
+    return _trial(f.centre, k, norm(f.normal) / 2)
+
+
 def _exact_trial(query: OpenFace, k: Any) -> Any:
-    return _trial(query, k, norm(query.frame.normal) / 2)
+    return trial_bound(query.frame, k)
 
 
 FILTERED = Question(_bounds, _homes, _region, _may_hold, _exact_trial)

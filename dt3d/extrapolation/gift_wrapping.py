@@ -112,12 +112,13 @@ SMALLEST_CIRCLE = Question(
 )
 
 
-def first_facets(buckets: Buckets) -> tuple[sv.Vector, sv.Vector, sv.Vector]:
-    """A Delaunay facet (a, b, c) for every site a: three int32 vectors of length n."""
+def first_facets(buckets: Buckets, a: sv.Vector | None = None) -> tuple[sv.Vector, sv.Vector, sv.Vector]:
+    """A Delaunay facet (a, b, c) for every site a, or for those given: three int32 vectors of one length."""
     sites, machine = buckets.sites, buckets.machine
-    a = machine.iota(len(buckets.origin))
-    b = search(buckets, Start(sites, a), (sites, sites), NEAREST).best.site
-    ends = sites, sv.get(sites, b)
+    starts = sites if a is None else sv.get(sites, a)
+    a = machine.iota(len(buckets.origin)) if a is None else a
+    b = search(buckets, Start(starts, a), (starts, starts), NEAREST).best.site
+    ends = starts, sv.get(sites, b)
     first = machine.map(bounding_box, *ends)
     c = search(buckets, Edge(*ends, a, b), first, SMALLEST_CIRCLE).best.site
     return a, b, c

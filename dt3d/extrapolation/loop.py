@@ -9,7 +9,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ import numpy as np
 import scanvec as sv
 
 from .._errors import InconsistencyError
+from . import fused
 from .buckets import Buckets, bucket
 from .dead_faces import (
     DeadFaces,
@@ -33,6 +33,7 @@ from .decisions import Counts, expand_exactly
 from .exact_sites import ExactSites, check_magnitudes
 from .expansion import Face, expand_perturbed
 from .gift_wrapping import first_facets
+from .outcome import Outcome
 from .points import Point
 from .search import NO_SITE
 from .start import both_sides, seeds
@@ -41,21 +42,6 @@ from .start import both_sides, seeds
 # ("too many" in the paper's Table 3).
 GIVE_UP_SHARE = 0.02
 GIVE_UP_COUNT = 100
-
-
-@dataclass
-class Outcome:
-    """What the loop found; vertices are indices of the rows of the sites it was given."""
-
-    simplices: np.ndarray  # int32 (m, 4)
-    neighbors: np.ndarray  # int32 (m, 4)
-    iteration: np.ndarray  # int32 (m,)
-    per_iteration: list[int] = field(default_factory=list)
-    face_expansions: int = 0
-    sites_searched: int = 0
-    exact_decisions: int = 0
-    inconsistencies: int = 0
-    seconds: dict[str, float] = field(default_factory=dict)
 
 
 class _Clock:
@@ -98,6 +84,8 @@ def triangulate(
     """
     if exact:
         check_magnitudes(sites)
+        if isinstance(machine, sv.Device) and fused.serves(sites):
+            return fused.triangulate(machine, sites, report).in_canonical_order()
     clock = _Clock(machine)
     with clock.phase("buckets"):
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))
@@ -132,6 +120,8 @@ def triangulate(
 
     with clock.phase("neighbors"):
         _assemble(buckets, dead, found, out)
+        if exact:
+            out.in_canonical_order()
     out.seconds = clock.seconds
     return out
 

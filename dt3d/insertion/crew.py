@@ -76,17 +76,18 @@ class Crew:
         for task in [self.pool.submit(work, i, min(i + PIECE, n)) for i in range(0, n, PIECE)]:
             task.result()
 
-    def begin(self, rows: np.ndarray, store: Store, inserted: int) -> None:
-        """Get to work on a store that has some sites already."""
+    def begin(self, rows: np.ndarray, box: np.ndarray, store: Store, inserted: int) -> None:
+        """Get to work on a store that has some sites already; ``box``: the corners of the box of all,
+        (2, 3)."""
         self.rows = rows
         self.points = rows.reshape(-1, 4)[:, :3]  # without the labels, which are no coordinates
         self.labels = rows.view(np.uint32)
         # what underflow can do to a determinant; nothing is known of coordinates that are not scaled
-        scaled = np.abs(self.points).max() <= 1
+        scaled = np.abs(box).max() <= 1
         self.slack, self.reach = (2.0**-1000, 1.0) if scaled else (np.inf, np.inf)
         self.store = store
         self.n = len(self.points)
-        self.workers = [Worker(self.points) for _ in range(self.threads)]
+        self.workers = [Worker(self.n, box) for _ in range(self.threads)]
         self.inserted = inserted
 
     def insert_round(self, pending: np.ndarray) -> None:

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
 from .._errors import DegenerateInputError
@@ -15,7 +14,7 @@ from .crew import LEAST_PIECE, Crew, available_cores
 from .first import first_tetrahedron
 from .kernel import FRESH, FRESH_END
 from .layout import DEAD, aligned
-from .order import along_curve, insertion_rounds, separate_copies
+from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
 from .store import LARGEST_BLOCK, Store
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
@@ -48,16 +47,16 @@ def triangulate(
     """Triangulate sites, float64 (n, 3), exactly.
 
     ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
-    greatest coordinate is about 1. With ``threads`` of None there are as many as cores, or fewer where more
-    do not pay.
+    greatest coordinate is about 1. There are at most as many threads as cores, since threads that never wait
+    for each other gain nothing from taking turns; with ``threads`` of None also fewer where more do not pay.
 
     Raises
     ------
     DegenerateInputError
         If the sites span no volume.
     """
-    if threads is None:
-        threads = max(1, min(available_cores(), len(sites) // (8 * LEAST_PIECE)))
+    most = max(1, len(sites) // (8 * LEAST_PIECE)) if threads is None else threads
+    threads = min(most, available_cores())
     n = 0
     reported = 0
 
@@ -70,12 +69,8 @@ def triangulate(
     seconds = {}
     with Crew(threads, each_stretch) as crew:
         begun = time.perf_counter()
-        order = along_curve(sites, crew.in_pieces)
-        n, duplicates = separate_copies(sites, order)
-        original = order[:n].astype(np.int32)
-        del order
-        rows = aligned(4 * n, np.float64)
-        crew.in_pieces(lambda i, j: _gather(sites, original, rows, i, j), n)
+        original, rows, duplicates = _in_order(sites, crew)
+        n = len(original)
         first = _first(rows.reshape(n, 4)[:, :3])
         todo, ends = insertion_rounds(n, seed, first)
         seconds["order"] = time.perf_counter() - begun
@@ -83,7 +78,7 @@ def triangulate(
         begun = time.perf_counter()
         block = min(LARGEST_BLOCK, 64 + n // threads)
         store = Store(first, SLOTS_PER_SITE * n + 64 + threads * block, block)
-        crew.begin(rows, store, len(first))
+        crew.begin(rows, bounds(sites), store, len(first))
         begin = 0
         for end in ends:
             crew.insert_round(todo[begin:end])
@@ -101,12 +96,21 @@ def triangulate(
     return Outcome(simplices, neighbors, duplicates, walked, tested, created, threads, crew.deferred, seconds)
 
 
-@numba.njit(nogil=True, cache=True)
-def _gather(sites, original, rows, begin, end):
-    for i in range(begin, end):
-        for k in range(3):
-            rows[4 * i + k] = sites[original[i], k]
-        rows[4 * i + 3] = 0.0
+def _in_order(sites: np.ndarray, crew: Crew) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
+    int32 (k, 2)."""
+    order = along_curve(sites, crew.in_pieces)
+    original = order.astype(np.int32)
+    rows = aligned(4 * len(order), np.float64)
+    crew.in_pieces(lambda i, j: gather(sites, original, rows, i, j), len(order))
+    found = []
+    crew.in_pieces(lambda i, j: found.append(copied(rows, i, j)), len(order))
+    if not any(found):
+        return original, rows, np.empty((0, 2), np.int32)
+    n, duplicates = separate_copies(sites, order)
+    original, rows = order[:n].astype(np.int32), rows[: 4 * n]
+    crew.in_pieces(lambda i, j: gather(sites, original, rows, i, j), n)
+    return original, rows, duplicates
 
 
 def _first(points: np.ndarray) -> np.ndarray:

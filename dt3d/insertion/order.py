@@ -32,9 +32,9 @@ def along_curve(
     perhaps.
     """
     n = len(sites)
-    low = sites.min(axis=0)
+    low, high = bounds(sites)
     with np.errstate(over="ignore"):
-        extent = float((sites.max(axis=0) - low).max())
+        extent = float((high - low).max())
     if not extent < GREATEST_EXTENT:
         return np.lexsort(sites.T[::-1])
     if not extent:
@@ -51,6 +51,19 @@ def along_curve(
     for i, j in long_runs[:count]:
         keys[i:j] = keys[i:j][along_curve(sites[keys[i:j]], in_pieces)]
     return keys
+
+
+@numba.njit(nogil=True, cache=True)
+def bounds(sites):
+    """The least and the greatest corner of the box of sites float64 (n, 3), float64 (2, 3)."""
+    box = np.empty((2, 3))
+    for k in range(3):
+        box[0, k] = box[1, k] = sites[0, k]
+    for i in range(len(sites)):
+        for k in range(3):
+            box[0, k] = min(box[0, k], sites[i, k])
+            box[1, k] = max(box[1, k], sites[i, k])
+    return box
 
 
 @numba.njit(nogil=True, cache=True)
@@ -85,6 +98,25 @@ def _before(sites, a, b):
     for k in range(3):
         if sites[a, k] != sites[b, k]:
             return sites[a, k] < sites[b, k]
+    return False
+
+
+@numba.njit(nogil=True, cache=True)
+def gather(sites, order, rows, begin, end):
+    """Put sites float64 (n, 3) in order, into rows of four (see `layout`), from place begin to end - 1."""
+    for i in range(begin, end):
+        for k in range(3):
+            rows[4 * i + k] = sites[order[i], k]
+        rows[4 * i + 3] = 0.0
+
+
+@numba.njit(nogil=True, cache=True)
+def copied(rows, begin, end):
+    """Whether a row from begin to end - 1 equals the one before it."""
+    for i in range(max(begin, 1), end):
+        j = 4 * i
+        if rows[j] == rows[j - 4] and rows[j + 1] == rows[j - 3] and rows[j + 2] == rows[j - 2]:
+            return True
     return False
 
 

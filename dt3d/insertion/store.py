@@ -76,10 +76,10 @@ class Worker:
     """What one thread has for itself: its counts, its free slots, room for a cavity and for exact
     arithmetic."""
 
-    def __init__(self, points: np.ndarray) -> None:
+    def __init__(self, sites: int, box: np.ndarray) -> None:
         self.state = np.zeros(STATE, np.int64)
-        self.state[SITES] = self.state[LENGTH] = len(points)
-        self.work = work_array(points)
+        self.state[SITES] = self.state[LENGTH] = sites
+        self.work = work_array(box)  # which knows the greatest coordinate
         self.todo = np.empty(0, np.uint32)
         self.short = False  # of memory
         self.allocate(SCRATCH)

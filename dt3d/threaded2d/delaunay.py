@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._compiling import announce_compilation
 from .._input import check_points, exactly_scaled
 from .plan import LOCATIONS, METHODS, ORDERS, Options, triangulate
 from .subdivision import SUBDIVISIONS
@@ -123,6 +124,7 @@ class Delaunay:
             msg = "subdivision='curve' goes with order='brio', got order='random'"
             raise ValueError(msg)
 
+        announce_compilation()
         self.points = check_points(points2d, 2)
         sites = exactly_scaled(self.points)
         options = _options(len(sites), method, threads, order, location, queue_length, subdivision, seed)

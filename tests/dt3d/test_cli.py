@@ -102,8 +102,8 @@ def test_options_reach_the_triangulation(points, tmp_path, monkeypatch):
     assert (seen["method"], seen["robustness"]) == ("auto", "perturb")
     assert cli.main([*words, "--machine", "device"]) == 2
     assert type(seen["machine"]).__name__ == "Device"
-    assert cli.main(words) == 2
-    assert seen["machine"] is None
+    assert cli.main([*words, "--threads", "3"]) == 2
+    assert (seen["machine"], seen["threads"]) == (None, 3)
 
 
 def test_demo_on_fewer_sites(tmp_path, monkeypatch, capsys):

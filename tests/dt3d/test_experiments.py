@@ -11,7 +11,7 @@ import dt3d
 import scanvec as sv
 from dt3d.experiments import EXPERIMENTS, calibration, sets, table2
 from dt3d.experiments.balance import SCHEMES, Work, shares, work
-from dt3d.experiments.figure2 import MOST_BY_BRUTE_FORCE, break_even, exhaustive, figure2, run
+from dt3d.experiments.figure2 import break_even, exhaustive, figure2, run
 from dt3d.experiments.figure3 import figure3
 from dt3d.experiments.machines import MODELS
 from dt3d.experiments.machines import run as run_machines
@@ -57,10 +57,10 @@ def test_calibration_meets_the_times_that_it_is_given(small_ledgers):
     for row in RANDOM[:3]:
         assert ledgers[row.name].under(model).seconds == pytest.approx(row.seconds, rel=0.25)
     assert {n: c.origin for n, c in model.constants.items()} == {
-        "issue": "calibrated", "element": "calibrated", "message": "sourced", "byte": "sourced",
-        "byte_within_16": "sourced", "combine": "sourced",
+        "issue": "calibrated", "element": "calibrated", "route": "calibrated", "packet": "sourced",
+        "packet_bytes": "sourced", "combine": "sourced",
     }  # fmt: skip
-    assert "rand.125, rand.250, rand.500 on 32 nodes" in model.constants["issue"].source
+    assert "3 random sets, rand.125 to rand.500, on 32 nodes" in model.constants["issue"].source
     with pytest.raises(ValueError, match="at least 3 of Table 1's random sets, got 1"):
         calibration.calibrated({"rand.125": ledgers["rand.125"], "cube": ledgers["rand.125"]})
 
@@ -74,7 +74,7 @@ def test_predictions_of_other_nodes(small_ledgers, monkeypatch):
     for c in cells:
         assert c.predicted == small_ledgers["rand.500"][c.nodes].under(model).seconds
         assert c.predicted_speedup == cells[0].predicted / c.predicted
-    # free messages leave more to elements, which are shared out better
+    # free packets leave more to elements, which are shared out better
     _, free = module.predict(small_ledgers, 0.0)
     assert free[2].predicted_speedup > cells[2].predicted_speedup
 
@@ -164,6 +164,19 @@ def test_machines_reuse_one_run():
     assert ledgers[16].under(sv.CRCW_PRAM).seconds > ledgers[16].under(sv.SCAN).seconds
 
 
+@pytest.mark.slow
+def test_many_processors_find_what_a_device_does():
+    points = points_of("rand.2000")
+    options = {"method": "extrapolation", "robustness": "perturb"}
+    many, few = sv.Simulated(16384, model=sv.CM2), sv.Simulated(32, model=sv.CM2, also=[16384])
+    one, *others = (dt3d.Delaunay(points, machine=m, **options) for m in (sv.Device(), few, many))
+    for other in others:
+        for array in ("simplices", "neighbors", "convex_hull", "iteration"):
+            np.testing.assert_array_equal(getattr(other, array), getattr(one, array))
+    # and the loads that the smaller machine counts for the larger one are those of its own run
+    assert few.ledgers[16384].entries == many.ledger.entries
+
+
 def test_primitives_take_what_they_state():
     module = sys.modules["dt3d.experiments.primitives"]
     found = list(module.measurements((16, 128, 1000)))
@@ -177,16 +190,13 @@ def test_table2_predicts_the_papers_times(tmp_path, console):
     cells = table2(tmp_path, console)
     assert len(cells) == sum(map(len, TABLE2.values()))
     for c in cells:
-        assert abs(c.speedup_off) <= 0.20
-        # what misses is named on the screen: see README
-        if not c.calibrated and (c.name, c.nodes) != ("rand.4000", 128):
-            assert c.holds
-    assert "Not all within" in console.export_text()
+        assert c.calibrated or c.holds
+    assert "All within 25% (seconds) and 20% (speed-ups)" in console.export_text()
 
 
 @pytest.mark.slow
 def test_figure2_breaks_even_near_the_papers_point(tmp_path, console):
-    _, crossing = figure2(tmp_path, console, most_sites=MOST_BY_BRUTE_FORCE)
+    _, crossing = figure2(tmp_path, console)
     assert BREAK_EVEN / 2 <= crossing <= 2 * BREAK_EVEN
 
 

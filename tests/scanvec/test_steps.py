@@ -24,6 +24,8 @@ class Inputs:
         self.counts = self.cm.vector(np.arange(n) % 3)
         self.lengths = self.cm.vector(np.array([3, 0, 5] if n else [], int))
         self.segments = sv.Segments.from_lengths(self.lengths)
+        # to merge by the flags
+        self.clear, self.set = sv.pack(self.v, ~self.flags), sv.pack(self.v, self.flags)
         self.cm.ledger.entries.clear()
 
 
@@ -53,6 +55,10 @@ STATED = [
     (sv.pack, lambda x: sv.pack((x.v, x.floats), x.flags), 4, 4),
     (sv.pack_index, lambda x: sv.pack_index(x.flags), 5, 5),
     (sv.split, lambda x: sv.split((x.v, x.floats), x.flags), 5, 0),
+    (sv.select, lambda x: sv.select(x.flags, x.v, x.v), 1, 1),
+    (sv.flag_merge, lambda x: sv.flag_merge(x.clear, x.set, x.flags), 7, 7),
+    (sv.insert, lambda x: sv.insert(x.cm.full(8, 0, "int8"), 3, 1), 1, 1),
+    (sv.op_distribute, lambda x: sv.op_distribute(x.v, sv.MAX, x.segments), 2, 2),
     (sv.append, lambda x: sv.append(x.v, x.v), 5, 0),
     (sv.distribute, lambda x: sv.distribute(x.v, x.counts), 12, 1),
     (sv.Segments.from_lengths, lambda x: sv.Segments.from_lengths(x.lengths), 11, 0),
@@ -100,6 +106,8 @@ def test_no_stated_count_is_missing_here():
         (lambda x: sv.reduce(x.flags, sv.ADD), 2),
         (lambda x: sv.reduce(x.flags, sv.ADD, x.segments), 6),
         (lambda x: sv.scan(x.flags, sv.ADD), 2),
+        (lambda x: sv.op_distribute(x.flags, sv.ADD), 3),
+        (lambda x: sv.split(x.v, x.flags, x.segments), 7),
         (lambda x: sv.append(x.cm.vector([]), x.floats), 3),
         (lambda x: sv.append(x.floats, x.cm.vector([])), 2),
     ],

@@ -129,3 +129,31 @@ def sorted_order(keys: Sequence[np.ndarray]) -> list[int]:
         return (True, 0) if x != x else (False, x.item())
 
     return sorted(range(len(keys[0])), key=lambda i: tuple(rank(k[i]) for k in keys))
+
+
+def select(flags: Sequence[bool], first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """first[i] where flags[i], else second[i]."""
+    return np.array([a if f else b for f, a, b in zip(flags, first, second, strict=True)], first.dtype)
+
+
+def flag_merge(first: np.ndarray, second: np.ndarray, flags: Sequence[bool]) -> np.ndarray:
+    """The next of ``second`` where the flag is set, of ``first`` where it is clear."""
+    sources = [iter(first), iter(second)]
+    return np.array([next(sources[bool(f)]) for f in flags], first.dtype)
+
+
+def distribute_array(op: sv.Monoid, values: np.ndarray, ids: np.ndarray) -> np.ndarray:
+    """Each element's segment reduced."""
+    whole = {j: reduce_array(op, values[ids == j]) for j in set(ids.tolist())}
+    dtype = np.asarray(reduce_array(op, values[:0])).dtype
+    return np.array([whole[j] for j in ids.tolist()], dtype)
+
+
+def split(values: np.ndarray, flags: Sequence[bool], lengths: Sequence[int]) -> np.ndarray:
+    """In each segment, the elements whose flag is clear and then the others."""
+    out, start = [], 0
+    for length in lengths:
+        own = range(start, start + length)
+        out += [values[i] for i in own if not flags[i]] + [values[i] for i in own if flags[i]]
+        start += length
+    return np.array(out, values.dtype)

@@ -32,7 +32,13 @@ def sets(*names):
 
 
 @pytest.fixture
-def yielding(monkeypatch):
+def eight_cores(monkeypatch):
+    """As many threads as are asked for, where there are fewer cores."""
+    monkeypatch.setattr(loop, "available_cores", lambda: 8)
+
+
+@pytest.fixture
+def yielding(monkeypatch, eight_cores):
     """Pieces, stretches and blocks so small that threads meet often, and pauses at random between
     stretches."""
     monkeypatch.setattr(crew, "LEAST_PIECE", 20)
@@ -76,13 +82,19 @@ def test_one_answer_300_times(name, yielding):
     assert_one_answer(SETS[name], 75)
 
 
-def test_one_answer_at_full_speed():
+def test_one_answer_at_full_speed(eight_cores):
     points = np.random.default_rng(1).random((60_000, 3))
     want = dt3d.Delaunay(points, threads=1)
     for threads in (2, 3, 8):
         tri = dt3d.Delaunay(points, threads=threads)
         np.testing.assert_array_equal(tetrahedra(tri), tetrahedra(want))
         assert 0 < tri.stats.deferred < 60_000
+
+
+def test_no_more_threads_than_cores(monkeypatch):
+    monkeypatch.setattr(loop, "available_cores", lambda: 2)
+    for asked, got in ((1, 1), (2, 2), (8, 2), (None, 1)):
+        assert dt3d.Delaunay(SETS["uniform"], threads=asked).stats.threads == got
 
 
 def test_memory_grows_between_passes(yielding, monkeypatch):

@@ -1,0 +1,137 @@
+"""What was measured: a table, a CSV, and a picture."""
+
+from __future__ import annotations
+
+import csv
+import os
+import platform
+from collections.abc import Sequence
+from datetime import date
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.table import Table
+
+from .rounds import Measured
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+NAME = "bench"  # of the files
+MARKERS = "osD^vP*X"
+
+
+def publish(measured: Sequence[Measured], out: Path, console: Console) -> None:
+    """Print the table, and write ``bench.csv`` and ``bench.png`` to the folder ``out``."""
+    console.print(table(measured))
+    write_csv(measured, out / f"{NAME}.csv")
+    draw(measured, out / f"{NAME}.png")
+    console.print(f"wrote {out / NAME}.csv and {out / NAME}.png", markup=False)
+
+
+def machine() -> str:
+    """The day, the processor and its cores, in words."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return f"{date.today().isoformat()}, {_processor()}, {cores} cores"
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def by_set(measured: Sequence[Measured]) -> list[list[Measured]]:
+    """The rows of each set, that of dt3d first."""
+    return [list(rows) for _, rows in groupby(measured, lambda m: (m.set_name, m.sites))]
+
+
+def ratio(row: Measured, rows: Sequence[Measured]) -> float | None:
+    """How many times as long as dt3d on the same set, by medians."""
+    first = rows[0].seconds
+    return row.seconds / first if first and row.seconds else None
+
+
+def table(measured: Sequence[Measured]) -> Table:
+    """Medians, and how they compare with dt3d's."""
+    shown = Table(
+        title=f"Delaunay triangulation in space, dt3d = 1: {machine()}",
+        title_justify="left",
+        caption="right: proved by exact arithmetic; bytes are those above the input",
+        caption_justify="left",
+    )
+    for heading in ("set", "sites", "library"):
+        shown.add_column(heading, justify="right" if heading == "sites" else "left", no_wrap=True)
+    for heading in ("seconds", "ratio", "tetrahedra", "10^6 a s", "bytes/site", "right", "runs"):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    for rows in by_set(measured):
+        shown.add_section()
+        for row in rows:
+            shown.add_row(*_cells(row, rows))
+    return shown
+
+
+def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
+    names = [row.set_name, f"{row.sites:,}", row.library]
+    seconds, times = row.seconds, ratio(row, rows)
+    if seconds is None:
+        return [*names, row.ended, "", "", "", "", "", "0"]
+    return [
+        *names,
+        f"{seconds:.3g}" if seconds < 100 else f"{seconds:.0f}",
+        "" if times is None else f"{times:.2f}",
+        f"{row.tetrahedra:,}",
+        f"{1e-6 * row.tetrahedra / seconds:.2f}",
+        "" if row.memory is None else f"{row.memory / row.sites:,.0f}",
+        "" if row.verified is None else "yes" if row.verified else "NO",
+        f"{len(row.runs)}" + (f", {row.ended}" if row.ended else ""),
+    ]
+
+
+def write_csv(measured: Sequence[Measured], path: Path) -> None:
+    """A line for each library and set; several runs are separated by spaces."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
+             "verified", "runs", "ended"]
+        )  # fmt: skip
+        for rows in by_set(measured):
+            for row in rows:
+                writer.writerow(
+                    [row.set_name, row.sites, row.library, row.seconds, ratio(row, rows), row.tetrahedra,
+                     row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
+                )  # fmt: skip
+
+
+def draw(measured: Sequence[Measured], path: Path) -> None:
+    """Microseconds a site, a column for each set and a marker for each library."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    sets = by_set(measured)
+    figure = Figure(figsize=(max(6.0, 1.2 * len(sets) + 3.0), 4.2), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes: Any = figure.subplots()
+    libraries = list(dict.fromkeys(row.library for row in measured))
+    for k, library in enumerate(libraries):
+        points = [
+            (column, 1e6 * row.seconds / row.sites)
+            for column, rows in enumerate(sets)
+            for row in rows
+            if row.library == library and row.seconds
+        ]
+        marker = MARKERS[k % len(MARKERS)]
+        axes.plot(*zip(*points, strict=True) if points else ([], []), marker, label=library)
+    axes.set_yscale("log")
+    axes.set_ylabel("microseconds a site")
+    axes.set_xticks(range(len(sets)), [f"{rows[0].set_name}\n{rows[0].sites:,}" for rows in sets])
+    axes.set_xlim(-0.5, len(sets) - 0.5)
+    axes.grid(axis="y", alpha=0.3)
+    axes.legend()
+    axes.set_title(machine(), fontsize="small")
+    figure.savefig(path, dpi=150)

@@ -1,0 +1,124 @@
+"""The table of facets: a hash table that finds the open face on the other side of a new one.
+
+A slot holds a half-face, 4 t + k for the face of tetrahedron t opposite its k-th vertex; the facet's vertices
+are read from the tetrahedron. All keys of a batch claim slots at once: each sends its half-face with a
+minimum, reads the slot back, and goes on if another facet sits there. Facets that have met are never asked
+for again and stay until the table is made anew.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from ..dictionary import _hash as mixed
+from .expand import at
+
+EMPTY = 2**31 - 1
+ABSENT = -1
+TURNS_OF_ALL = 2
+FEW = 8  # one in so many goes on at a time,
+TURNS_OF_FEW = 4  # so many turns
+
+
+def ascending(a: Any, b: Any, c: Any) -> tuple[Any, Any, Any]:
+    """Three numbers in ascending order: the name of a facet."""
+    low, high = jnp.minimum(a, b), jnp.maximum(a, b)
+    return jnp.minimum(low, c), jnp.maximum(low, jnp.minimum(high, c)), jnp.maximum(high, c)
+
+
+def facet_of(corners: Any, half: Any) -> tuple[Any, Any, Any]:
+    """The name of the facet of a half-face."""
+    first, k = half & ~3, half & 3
+    return ascending(
+        at(corners, first + (k == 0)), at(corners, first + 1 + (k <= 1)), at(corners, first + 2 + (k <= 2))
+    )
+
+
+def first_slot(facet: Any, slots: int) -> Any:
+    return (mixed(facet) & jnp.uint32(slots - 1)).astype(jnp.int32)
+
+
+def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any]:
+    """The half-face of each facet, or `ABSENT`; and the slot where the search ended."""
+    slots = len(table)
+
+    def turn(shared: None, probe: Probe) -> tuple[None, Probe]:
+        entry = jax.lax.optimization_barrier(at(table, probe.slot))
+        taken = entry != EMPTY
+        same = jax.lax.optimization_barrier(taken & _names(probe.facet, corners, entry, taken))
+        going = probe.waiting & taken & ~same
+        slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
+        return shared, probe._replace(
+            slot=slot, found=jnp.where(probe.waiting & same, entry, probe.found), waiting=going
+        )
+
+    slot = first_slot(facet, slots)
+    probe = Probe(facet, slot, slot, jnp.full_like(slot, ABSENT), active)
+    _, probe = _until_done(turn, None, probe)
+    return probe.found, probe.slot
+
+
+def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: Any) -> tuple[Any, Any]:
+    """Enter half-faces of facets that are not in the table, from the given slots on.
+
+    Also the half-face that was there first, where two of the batch are of one facet, otherwise `ABSENT`.
+    """
+    slots = len(table)
+
+    def turn(table: Any, probe: Probe) -> tuple[Any, Probe]:
+        free = probe.waiting & (at(table, probe.slot) == EMPTY)
+        table = table.at[jnp.where(free, probe.slot, slots)].min(probe.half, mode="drop")
+        entry = jax.lax.optimization_barrier(at(table, probe.slot))
+        mine = entry == probe.half
+        same = _names(probe.facet, corners, entry, entry != EMPTY)
+        same = jax.lax.optimization_barrier(same & probe.waiting & ~mine)
+        going = probe.waiting & ~mine & ~same
+        slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
+        return table, probe._replace(slot=slot, found=jnp.where(same, entry, probe.found), waiting=going)
+
+    table, probe = _until_done(turn, table, Probe(facet, half, slot, jnp.full_like(half, ABSENT), active))
+    return table, probe.found
+
+
+class Probe(NamedTuple):
+    """Facets that look for their slots."""
+
+    facet: Any
+    half: Any
+    slot: Any
+    found: Any
+    waiting: Any
+
+
+def _names(facet: Any, corners: Any, entry: Any, taken: Any) -> Any:
+    other = facet_of(corners, jnp.where(taken, entry, 0))
+    return (facet[0] == other[0]) & (facet[1] == other[1]) & (facet[2] == other[2])
+
+
+def _until_done(turn: Any, shared: Any, probe: Probe) -> tuple[Any, Probe]:
+    """Turns of all, then of those that still wait, packed together: few wait for long."""
+    size = len(probe.slot)
+    few = -(-size // FEW)
+    for _ in range(TURNS_OF_ALL):
+        shared, probe = turn(shared, probe)
+
+    def again(state: Any) -> Any:
+        shared, probe = state
+        place = jnp.cumsum(probe.waiting, dtype=jnp.int32)
+        target = jnp.where(probe.waiting & (place <= few), place - 1, few)
+        lane = jnp.full(few, size, jnp.int32).at[target].set(jnp.arange(size, dtype=jnp.int32), mode="drop")
+        there = jnp.minimum(lane, size - 1)
+        part = jax.tree.map(lambda x: at(x, there), probe)
+        part = part._replace(waiting=part.waiting & (lane < size))
+        for _ in range(TURNS_OF_FEW):
+            shared, part = turn(shared, part)
+        return shared, probe._replace(
+            slot=probe.slot.at[lane].set(part.slot, mode="drop"),
+            found=probe.found.at[lane].set(part.found, mode="drop"),
+            waiting=probe.waiting.at[lane].set(part.waiting, mode="drop"),
+        )
+
+    return jax.lax.while_loop(lambda state: jnp.any(state[1].waiting), again, (shared, probe))
