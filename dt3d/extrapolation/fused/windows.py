@@ -70,6 +70,6 @@ def windows_of(sites: np.ndarray, grid: Grid, capacity: int) -> Windows:
     members = np.zeros(CELLS**3 * capacity, np.int32)
     places = np.repeat(run.ravel() - before, length.ravel()) + np.arange(entries)
     members[:entries] = order[places]
-    starts = np.full(max(capacity, 64) + 1, entries, np.int32)
+    starts = np.full(max(2 * capacity, len(corner)) + 1, entries, np.int32)
     starts[: len(corner)] = before[:: len(row)]
     return Windows(grid, *shape.astype(np.int32), starts, members)
