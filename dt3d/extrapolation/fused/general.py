@@ -57,10 +57,13 @@ class GeneralCode:
         return np.where(site == NO_SITE, NO_SITE, here[site]).astype(np.int32), counts.sites_searched
 
     def seeds(self, chosen: np.ndarray) -> np.ndarray:
-        """Tetrahedra (m, 4) at first facets of chosen sites."""
+        """Tetrahedra (m, 4) at first facets of chosen sites, or of all if those have none."""
         there = self._machine.vector(self._theirs[0][chosen])
         facets = Face(*first_facets(self.exact.buckets, there))
-        facets = distinct_facets(sv.pack(facets, facets.c != NO_SITE))
-        start, _ = exact_seeds(self.exact, facets)
+        facets = sv.pack(facets, facets.c != NO_SITE)
+        if not len(facets.a):
+            facets = Face(*first_facets(self.exact.buckets))
+            facets = sv.pack(facets, facets.c != NO_SITE)
+        start, _ = exact_seeds(self.exact, distinct_facets(facets))
         rows = np.stack([v.to_numpy() for v in (*start.faces, start.site)], axis=1)
         return self._theirs[1][rows[rows[:, 3] != NO_SITE]]

@@ -86,7 +86,7 @@ class Triangulation:
         self.general = GeneralCode(machine, sites, self.order)
         self.windows = windows_of(self.sites, finest, capacity)
         cells = int(finest.nx) * int(finest.ny) * int(finest.nz)
-        starts = np.full(2 * capacity + 1, n, np.int32)
+        starts = np.full(max(2 * capacity, cells) + 1, n, np.int32)
         starts[: cells + 1] = np.searchsorted(cell[self.order], np.arange(cells + 1))
         padded = np.zeros((3, capacity))
         padded[:, :n] = self.sites.T

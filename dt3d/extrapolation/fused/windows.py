@@ -46,7 +46,8 @@ def grid_of(sites: np.ndarray, sites_per_cell: float) -> Grid:
 def even(sites: np.ndarray) -> bool:
     """Whether sites (n, 3) leave few cells empty, by the measure of `buckets.bucket`."""
     cell = cells_of(sites, grid_of(sites, buckets.SITES_PER_CELL))
-    return len(sites) <= buckets.EVEN * buckets.SITES_PER_CELL * np.count_nonzero(np.bincount(cell))
+    occupied = int(np.count_nonzero(np.bincount(cell)))
+    return len(sites) <= buckets.EVEN * buckets.SITES_PER_CELL * occupied
 
 
 def windows_of(sites: np.ndarray, grid: Grid, capacity: int) -> Windows:
@@ -70,6 +71,7 @@ def windows_of(sites: np.ndarray, grid: Grid, capacity: int) -> Windows:
     members = np.zeros(CELLS**3 * capacity, np.int32)
     places = np.repeat(run.ravel() - before, length.ravel()) + np.arange(entries)
     members[:entries] = order[places]
-    starts = np.full(max(capacity, 64) + 1, entries, np.int32)
+    starts = np.full(max(2 * capacity, len(corner)) + 1, entries, np.int32)
     starts[: len(corner)] = before[:: len(row)]
-    return Windows(grid, *shape.astype(np.int32), starts, members)
+    nx, ny, nz = shape.astype(np.int32)
+    return Windows(grid, nx, ny, nz, starts, members)
