@@ -15,8 +15,8 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
     """Replace the vertices of the facets by 0, 1, 2, ...; returns how many there are.
 
     ``near`` gets the vertices, the infinite one first, ``at`` a facet of each, ``rel`` their coordinates
-    relative to x, y, z and the squared lengths. A label is valid if ``near`` agrees with it, so nothing has to
-    be cleared.
+    relative to x, y, z and the squared lengths. A label is valid if ``near`` agrees with it, so nothing
+    has to be cleared.
     """
     count = 1
     for f in range(facets):
