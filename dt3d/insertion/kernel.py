@@ -17,7 +17,7 @@ import numpy as np
 
 from .conflict import conflicts
 from .layout import DEAD
-from .ownership import owns_all
+from .ownership import owns, owns_all
 from .prefetch import prefetch
 from .spheres import round_spheres
 from .star import NARROW, link_narrow, link_wide, number_vertices
@@ -32,6 +32,8 @@ DONE, NEEDS_SLOTS, NEEDS_SCRATCH = range(3)
 (LOW, LENGTH, SITES) = range(8, 11)  # what the thread owns
 (WALKED, TESTED, CREATED) = range(11, 14)
 STATE = 14
+
+BESIDE = 16  # sites on either side on the curve, from one of which a walk that stopped is begun again
 
 
 @numba.njit(inline="always", cache=True, error_model="numpy")
@@ -91,7 +93,7 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
     short; then nothing is half done: supply it and call again. ``points``, ``rows`` and ``labels`` are
     views of one array, so are ``spheres`` and ``radii``; see `layout`.
     """
-    cavity, rim, outer, near, rel, edges, keys, values = scratch
+    cavity, rim, outer, near, at, rel, edges, keys, values = scratch
     p, q, r, slots = rim[0], rim[1], rim[2], rim[3]
     xs, ys, zs, lengths = rel[0], rel[1], rel[2], rel[3]
     n, low, length = state[SITES], state[LOW], state[LENGTH]
@@ -104,6 +106,15 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
         x, y, z = rows[4 * site], rows[4 * site + 1], rows[4 * site + 2]
         last, found, steps = walk(points, rows, mesh, last, site, low, length, n, slack, w)
         walked += steps
+        if not found:
+            # the next walk would begin where this one stopped, and stop there, too
+            for i in range(2, 2 * BESIDE + 2):
+                beside = site + (i >> 1 if i & 1 else -(i >> 1))
+                if 0 <= beside < n and owns(beside, low, length, n) and labels[8 * beside + 7] != 0:
+                    last = numba.int64(labels[8 * beside + 7]) - 1
+                    last, found, steps = walk(points, rows, mesh, last, site, low, length, n, slack, w)
+                    walked += steps
+                    break
         size, facets = 0, -1
         if found:
             size, facets, tests = _search(
@@ -125,7 +136,7 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
             following += 1
             continue
 
-        count = number_vertices(rows, labels, x, y, z, rim, facets, near, rel)
+        count = number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at)
         for f in range(facets):
             # the slots of the cavity first, which are in the cache
             if f < size:
@@ -145,6 +156,9 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
             out = numba.int64(outer[f])
             mesh[8 * new + 4] = out
             mesh[8 * (out >> 2) + 4 + (out & 3)] = new << 2
+        labels[8 * site + 7] = slots[0] + 1
+        for i in range(1, count):
+            labels[8 * numba.int64(near[i]) + 7] = slots[numba.int64(at[i])] + 1
         for f in range(facets, size):
             c = numba.int64(cavity[f])
             mesh[8 * c] = DEAD

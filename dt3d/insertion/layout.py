@@ -1,6 +1,7 @@
 """How a growing triangulation lies in memory, and the numbers that have a meaning of their own.
 
-Sites are rows of four float64, 32 bytes: the coordinates, and a place that `star` numbers vertices in.
+Sites are rows of four float64, 32 bytes: the coordinates; a place that `star` numbers vertices in; and, from
+1 on, a tetrahedron that has the site, 0 as long as none is known.
 
 A tetrahedron t is two records of 32 bytes, each within one line of the cache:
 

@@ -11,11 +11,12 @@ NARROW = 6  # a star of up to 2^6 vertices is linked through a table of all edge
 
 
 @numba.njit(inline="always", cache=True, error_model="numpy")
-def number_vertices(rows, labels, x, y, z, rim, facets, near, rel):
+def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
     """Replace the vertices of the facets by 0, 1, 2, ...; returns how many there are.
 
-    ``near`` gets the vertices, the infinite one first, ``rel`` their coordinates relative to x, y, z and
-    the squared lengths. A label is valid if ``near`` agrees with it, so nothing has to be cleared.
+    ``near`` gets the vertices, the infinite one first, ``at`` a facet of each, ``rel`` their coordinates
+    relative to x, y, z and the squared lengths. A label is valid if ``near`` agrees with it, so nothing
+    has to be cleared.
     """
     count = 1
     for f in range(facets):
@@ -27,6 +28,7 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel):
                 if label >= count or numba.int64(near[label]) != v:
                     label = count
                     near[count] = v
+                    at[count] = f
                     labels[8 * v + 6] = count
                     vx, vy, vz = rows[4 * v] - x, rows[4 * v + 1] - y, rows[4 * v + 2] - z
                     rel[0, count], rel[1, count], rel[2, count] = vx, vy, vz

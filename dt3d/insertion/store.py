@@ -96,6 +96,7 @@ class Worker:
             np.empty((4, facets), np.uint32),  # rim
             np.empty(facets, np.uint32),  # outer
             near,
+            np.empty(facets, np.uint32),  # a facet of each
             relative,
             np.empty(1 << 2 * NARROW, np.uint32),  # edges
             np.empty(16 * facets, np.int64),  # keys
