@@ -76,7 +76,7 @@ def table(measured: Sequence[Measured]) -> Table:
 
 
 def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
-    names = [row.set_name, f"{row.sites:,}", row.library]
+    names = [row.set_name, f"{row.sites:,}", row.label]
     seconds, times = row.seconds, ratio(row, rows)
     if seconds is None:
         return [*names, row.ended, "", "", "", "", "", "0"]
@@ -103,7 +103,7 @@ def write_csv(measured: Sequence[Measured], path: Path) -> None:
         for rows in by_set(measured):
             for row in rows:
                 writer.writerow(
-                    [row.set_name, row.sites, row.library, row.seconds, ratio(row, rows), row.tetrahedra,
+                    [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
                      row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
                 )  # fmt: skip
 
@@ -117,13 +117,13 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
     figure = Figure(figsize=(max(6.0, 1.2 * len(sets) + 3.0), 4.2), layout="constrained")
     FigureCanvasAgg(figure)
     axes: Any = figure.subplots()
-    libraries = list(dict.fromkeys(row.library for row in measured))
+    libraries = list(dict.fromkeys(row.label for row in measured))
     for k, library in enumerate(libraries):
         points = [
             (column, 1e6 * row.seconds / row.sites)
             for column, rows in enumerate(sets)
             for row in rows
-            if row.library == library and row.seconds
+            if row.label == library and row.seconds
         ]
         marker = MARKERS[k % len(MARKERS)]
         axes.plot(*zip(*points, strict=True) if points else ([], []), marker, label=library)

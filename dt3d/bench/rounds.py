@@ -28,8 +28,8 @@ class Measured:
 
     Attributes
     ----------
-    library : str
-        Its name; of dt3d with the number of threads, where several were asked for.
+    label : str
+        The library's name; of dt3d with the number of threads, where several were asked for.
     runs : tuple of float
         Seconds of each round.
     tetrahedra : int
@@ -44,7 +44,7 @@ class Measured:
 
     set_name: str
     sites: int
-    library: str
+    label: str
     runs: tuple[float, ...]
     tetrahedra: int
     memory: int | None

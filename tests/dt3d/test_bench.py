@@ -59,7 +59,7 @@ def test_dt3d_and_scipy_are_compared(tmp_path):
         verify=True,
         say=said.append,
     )
-    assert [row.library for row in rows] == ["dt3d, 1 thread", "dt3d, 2 threads", "scipy"]
+    assert [row.label for row in rows] == ["dt3d, 1 thread", "dt3d, 2 threads", "scipy"]
     assert {(row.set_name, row.sites, row.verified, row.ended) for row in rows} == {("some", 300, True, "")}
     assert {row.tetrahedra for row in rows} == {len(dt3d.Delaunay(UNIFORM).simplices)}
     assert all(len(row.runs) == 3 and sorted(row.runs)[1] == row.seconds > 0 for row in rows)
