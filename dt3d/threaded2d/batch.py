@@ -12,73 +12,33 @@ The specialised thread knows which sites come next, and asks for their leaves wh
 from __future__ import annotations
 
 import numba
-import numpy as np
 
 from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .dag import descend
 from .flips import insert
-from .lanes import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
-from .prefetch import prefetch, prefetch_around, prefetch_beyond
+from .hands import AT_ONCE, locate_one, prepare
+from .prefetch import prefetch
 from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
-from .share import borrowed_sites, next_site
+from .share import borrowed_sites
 from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, pause, verdict
 from .store import (
     AT,
     CHANGE_CYCLES,
     HELPED,
-    HINT,
     IN_HAND,
     INSERTED,
     LOCATION_CYCLES,
-    NEXT,
     QUEUE_FILL,
     VISITED,
     stumble,
 )
 from .walk import walk_history
 
-AT_ONCE = 8  # elements that are put or taken together
-
-
-def empty_hands(threads: int) -> np.ndarray:
-    """Elements that threads have in hand, and a helped one: int64 (threads, AT_ONCE + 1, 2)."""
-    return np.empty((threads, AT_ONCE + 1, 2), np.int64)
-
 
 @numba.njit(cache=True, forceinline=True)
 def _finish(points, nodes, t, q, walking, w):
     return walk_history(points, nodes, t, q, w) if walking else descend(points, nodes, t, q, w)
-
-
-@numba.njit(cache=True, forceinline=True)
-def _locate(points, nodes, state, sites, lanes, hands, me, walking, w):
-    """Locate one more site of thread ``me``, into its hands; whether there was one left."""
-    if walking:
-        q = next_site(state, sites, me)
-        if q < 0:
-            return False
-        state[me, NEXT] += 1
-        t, visited = walk_history(points, nodes, state[me, HINT], q, w)
-        state[me, HINT] = t
-    else:
-        for i in range(LANES):
-            if lanes[i, LANE_SITE] == EMPTY:
-                q = next_site(state, sites, me)
-                if q < 0:
-                    break
-                state[me, NEXT] += 1
-                start(points, nodes, lanes, i, q, w)
-        i, visited = advance(points, nodes, lanes, w)
-        if i == EMPTY:
-            return False
-        q, t = lanes[i, LANE_SITE], lanes[i, LANE_NODE]
-        lanes[i, LANE_SITE] = EMPTY
-    state[me, VISITED] += visited
-    at = state[me, IN_HAND]
-    hands[at, ITEM_SITE], hands[at, ITEM_NODE] = q, t
-    state[me, IN_HAND] = at + 1
-    return True
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -90,7 +50,7 @@ def search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, wa
         state[me, HELPED] = 0
         return CHANGED
     left = state[me, IN_HAND] - state[me, AT]
-    if state[me, IN_HAND] < AT_ONCE and _locate(points, nodes, state, sites, lanes, hands, me, walking, w):
+    if state[me, IN_HAND] < AT_ONCE and locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
         return LOCATED
     if left == 0:
         return FINISHED
@@ -111,16 +71,6 @@ def search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, wa
 
 
 @numba.njit(cache=True, forceinline=True)
-def _prepare(points, nodes, items, at, count):
-    """Ask for what the elements after items[at] will need: the next but one's surroundings, and the next
-    one's."""
-    if at + 2 < count:
-        prefetch_around(points, nodes, items[at + 2, ITEM_NODE])
-    if at + 1 < count:
-        prefetch_beyond(points, nodes, items[at + 1, ITEM_NODE])
-
-
-@numba.njit(cache=True, forceinline=True)
 def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w):
     """One step of the specialised thread: an element from the queue is inserted."""
     if state[me, INSERTED] == len(points) - 3:
@@ -136,7 +86,7 @@ def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
             prefetch(nodes, hands[i, ITEM_NODE])
     at = state[me, AT]
     state[me, AT] += 1
-    _prepare(points, nodes, hands, at, state[me, IN_HAND])
+    prepare(points, nodes, hands, at, state[me, IN_HAND])
     q = hands[at, ITEM_SITE]
     t, visited = _finish(points, nodes, hands[at, ITEM_NODE], q, walking, w)
     insert(points, nodes, shared, state, me, t, q, 0, w)

@@ -21,9 +21,13 @@ from ..predicates.filtered2d import orient2d
 from .atomics import cycles, load, load_acquire, wait_a_little
 from .dag import descend
 from .flips import flip, illegal, subdivide
+from .hands import AT_ONCE, locate_one, prepare
 from .pool import (
+    BEGIN,
     EXCEPTIONAL,
+    LEGALISE,
     NOBODY,
+    SUBDIVIDE,
     blocker_of,
     clear_exception,
     publish,
@@ -31,7 +35,8 @@ from .pool import (
     still_waits,
     wait_for,
 )
-from .share import borrowed_sites, next_site
+from .queue import ITEM_NODE, ITEM_SITE
+from .share import borrowed_sites
 from .steps import (
     CHANGED,
     DONE,
@@ -39,37 +44,36 @@ from .steps import (
     GO_ON,
     LOCATED,
     WAITING,
-    find,
     spend,
     verdict,
 )
 from .store import (
     ACCESSES,
+    AT,
     CHANGE_CYCLES,
     CHILD,
     GIVEN_UP,
     HINT,
+    IN_HAND,
     INSERTED,
     LAST,
     LOCATION_CYCLES,
     NEIGHBOR,
-    NEXT,
     NODE,
     PHASE,
     SITE,
+    SUSPECT,
     VISITED,
     WAIT_CYCLES,
     WAITS,
     stumble,
 )
+from .suspects import note_star
 from .walk import walk_history
 
-# phases: next site, subdivision, legalisation
-BEGIN, SUBDIVIDE, LEGALISE = range(3)
-
-# The first thread is alone for so many sites a thread, and no longer than an eighth of its sites: where there
-# are but a few triangles, every insertion meets the others'.
-HEAD_START = 64
+# The first thread is alone for so many sites, and no longer than an eighth of its own: where there are but a
+# few triangles, every insertion meets the others', and what is left open there spreads over all that follows.
+HEAD_START = 1024
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -121,7 +125,7 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     i, serial = blocker_of(points, nodes, state, pool, me, looked_at, 4 if k < 0 else 6, w)
     if i != NOBODY:
         # where i waits for this thread, the next look leaves it out of account
-        return WAITING if wait_for(shared, state, pool, me, i, serial) else CHANGED
+        return WAITING if wait_for(shared, pool, me, i, serial) else CHANGED
     # what was looked at must be what is there
     if (
         not _is_leaf(nodes, t)
@@ -153,7 +157,7 @@ def _try_flip(points, nodes, shared, state, pool, me, f, w):
     a, b = _edge(nodes, u, (j + 1) % 3), _edge(nodes, u, (j + 2) % 3)
     i, serial = blocker_of(points, nodes, state, pool, me, (u, a >> 2, b >> 2), 3, w)
     if i != NOBODY:
-        return WAITING if wait_for(shared, state, pool, me, i, serial) else CHANGED
+        return WAITING if wait_for(shared, pool, me, i, serial) else CHANGED
     if (
         edge == _edge(nodes, f, 0)
         and _is_leaf(nodes, u)
@@ -165,11 +169,12 @@ def _try_flip(points, nodes, shared, state, pool, me, f, w):
 
 
 @numba.njit(cache=True, forceinline=True)
-def _try_legalisation(points, nodes, shared, state, pool, me, w):
+def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
     """Go round the star to the next edge to be flipped, and try that; or end the insertion."""
     f = state[me, NODE]
     if load(pool, (me, EXCEPTIONAL)) != 0 or not _is_leaf(nodes, f):
         state[me, GIVEN_UP] += 1
+        state[me, SUSPECT] = 1
     else:
         while not illegal(points, nodes, f, w):
             if nodes[f, 2] == state[me, LAST]:
@@ -178,42 +183,51 @@ def _try_legalisation(points, nodes, shared, state, pool, me, w):
             state[me, NODE] = f
         else:
             return _try_flip(points, nodes, shared, state, pool, me, f, w)
+    if state[me, SUSPECT] != 0:
+        note_star(nodes, state, notes, me, f, state[me, SITE])
+        state[me, SUSPECT] = 0
     state[me, HINT] = f
     retire(pool, me)
     state[me, INSERTED] += 1
-    state[me, NEXT] += 1
     state[me, PHASE] = BEGIN
     return CHANGED
 
 
 @numba.njit(cache=True, forceinline=True)
-def step(points, nodes, shared, state, sites, pool, me, walking, w):
-    """One step of thread ``me``: locate a site, try to subdivide, or try to flip an edge."""
-    if still_waits(state, pool, me):
+def step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w):
+    """One step of thread ``me``: locate a site, publish one, try to subdivide, or try to flip an edge."""
+    if still_waits(pool, me):
         return WAITING
     if state[me, PHASE] == SUBDIVIDE:
         clear_exception(pool, me)  # it locates again in any case
         return _try_subdivision(points, nodes, shared, state, pool, me, walking, w)
     if state[me, PHASE] == LEGALISE:
-        return _try_legalisation(points, nodes, shared, state, pool, me, w)
-    q = next_site(state, sites, me)
-    if q < 0:
+        return _try_legalisation(points, nodes, shared, state, pool, notes, me, w)
+    if state[me, IN_HAND] < AT_ONCE and locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
+        return LOCATED
+    at, count = state[me, AT], state[me, IN_HAND]
+    if at == count:
         return FINISHED
-    t, visited = find(points, nodes, state, me, q, walking, w)
-    state[me, SITE], state[me, NODE], state[me, PHASE] = q, t, SUBDIVIDE
-    state[me, VISITED] += visited
+    prepare(points, nodes, hands, at, count)
+    q = hands[at, ITEM_SITE]
+    state[me, SITE], state[me, NODE], state[me, PHASE] = q, hands[at, ITEM_NODE], SUBDIVIDE
+    if at + 1 < count:
+        state[me, AT] = at + 1
+    else:
+        state[me, AT] = state[me, IN_HAND] = 0
     publish(pool, me, q)
-    return LOCATED
+    return CHANGED
 
 
 @numba.njit(nogil=True, cache=True)
-def run(points, nodes, shared, state, sites, me, pool, alone, walking, w):
+def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alone, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before.
 
     The others begin when thread 0 has inserted ``alone`` sites.
     """
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, pool, w = borrowed_sites(sites), borrowed(pool), borrowed(w)
+    notes, lanes, hands = borrowed(notes), borrowed(lanes), borrowed(hands)
     waiting = 0
     while me > 0 and load(state, (0, INSERTED)) < alone:
         reason = verdict(shared, True, True)
@@ -227,7 +241,7 @@ def run(points, nodes, shared, state, sites, me, pool, alone, walking, w):
         reason = verdict(shared, True, state[me, PHASE] == BEGIN)
         if reason != GO_ON:
             return reason
-        did = step(points, nodes, shared, state, sites, pool, me, walking, w)
+        did = step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w)
         if did == FINISHED:
             return DONE
         if did != CHANGED or waiting > 0 or state[me, PHASE] == BEGIN:

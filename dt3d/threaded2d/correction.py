@@ -7,9 +7,8 @@ not needed any more.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
-from itertools import pairwise
 
 import numba
 import numpy as np
@@ -17,11 +16,9 @@ import numpy as np
 from ..predicates.borrowed import borrowed
 from .atomics import load
 from .cavity import in_conflict
-from .prefetch import prefetch, prefetch_around
-from .store import CHILD, INFINITE, NEIGHBOR, STOP, USED, Store
+from .store import INFINITE, NEIGHBOR, STOP, USED, Store
+from .suspects import leaves_below
 from .threads import together
-
-AHEAD = 8  # leaves between asking for a leaf's surroundings and for what lies beyond them
 
 
 @numba.njit(cache=True)
@@ -58,34 +55,13 @@ def _flip(nodes, t, k):
     _set(nodes, t, 1, 4 * u + 2)
 
 
-@numba.njit(nogil=True, cache=True)
-def find_illegal(points, nodes, leaves, begin, end, found, w):
-    """Enter the illegal edges of leaves[begin : end], as 4 t + k, into ``found``; how many there are."""
-    points, nodes, leaves, w = borrowed(points), borrowed(nodes), borrowed(leaves), borrowed(w)
-    count = 0
-    for i in range(begin, end):
-        prefetch_around(points, nodes, leaves[min(i + 2 * AHEAD, end - 1)])
-        ahead = leaves[min(i + AHEAD, end - 1)]
-        for k in range(3):
-            edge = nodes[ahead, NEIGHBOR + k]
-            prefetch(points, nodes[edge >> 2, edge & 3])
-        t = leaves[i]
-        for k in range(3):
-            # an edge is illegal from both sides or from none
-            if nodes[t, NEIGHBOR + k] >> 2 < t and _illegal(points, nodes, t, k, w):
-                found[count] = 4 * t + k
-                count += 1
-    return count
-
-
-@numba.njit(nogil=True, cache=True)
-def flip_illegal(points, nodes, shared, edges, w):
+@numba.njit(cache=True)
+def _flip_illegal(points, nodes, shared, edges, w):
     """Flip ``edges``, and those that get illegal thereby, until no edge is illegal or all threads have to
     stop; how many flips.
 
     There may be quadratically many.
     """
-    points, nodes, shared, w = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(w)
     top, flips = len(edges), 0
     stack = np.empty(2 * top + 4, np.int64)
     stack[:top] = edges
@@ -107,22 +83,26 @@ def flip_illegal(points, nodes, shared, edges, w):
     return flips
 
 
-def correct(store: Store, works: Sequence[np.ndarray], stop: Callable[[], None]) -> int:
-    """Flip edges until none is illegal; how many flips.
+@numba.njit(nogil=True, cache=True)
+def _correct(points, nodes, shared, origins, seen, stack, leaves, w):
+    """Flip what is illegal among the leaves below ``origins``, and what gets illegal thereby."""
+    points, nodes, shared, w = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(w)
+    count = leaves_below(nodes, origins, seen, stack, leaves)
+    edges = np.empty(3 * count, np.int64)
+    for i in range(count):
+        for k in range(3):
+            edges[3 * i + k] = 4 * leaves[i] + k
+    return _flip_illegal(points, nodes, shared, edges, w)
 
-    Illegal edges are looked for by as many threads as there are work arrays of the predicates. ``stop`` sets
-    the store's `STOP`.
+
+def correct(store: Store, origins: np.ndarray, work: np.ndarray, stop: Callable[[], None]) -> int:
+    """Flip edges until no leaf below ``origins``, int32 (k,), has an illegal one, nor any other that had none
+    before; how many flips.
+
+    ``work`` is the array of the predicates; ``stop`` sets the store's `STOP`.
     """
-    points, nodes, shared = store.points, store.nodes, store.shared
-    used = int(shared[USED, 0])
-    leaves = np.flatnonzero(nodes[:used, CHILD] < 0)
-    bounds = [len(leaves) * k // len(works) for k in range(len(works) + 1)]
-    found = [np.empty(3 * (end - begin), np.int64) for begin, end in pairwise(bounds)]
-
-    def task(k: int) -> int:
-        return find_illegal(points, nodes, leaves, bounds[k], bounds[k + 1], found[k], works[k])
-
-    counts = together([partial(task, k) for k in range(len(works))], stop)
-    edges = np.concatenate([f[:count] for f, count in zip(found, counts, strict=True)])
-    (flips,) = together([partial(flip_illegal, points, nodes, shared, edges, works[0])], stop)
+    used = int(store.shared[USED, 0])
+    scratch = np.zeros(used, np.bool_), np.empty(used, np.int32), np.empty(used, np.int32)
+    task = partial(_correct, store.points, store.nodes, store.shared, origins, *scratch, work)
+    (flips,) = together([task], stop)
     return int(flips)

@@ -1,7 +1,7 @@
 """Location of several sites at a time in the history, node by node in turn.
 
 On its way to a leaf a location waits for memory at nearly every node, in vain: the next node is not known
-before. Several of them wait together. Only searching threads can do that, which locate and do not change.
+before. Several of them wait together.
 """
 
 from __future__ import annotations

@@ -7,10 +7,13 @@ insertion, and what is needed next is near in memory.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numba
 import numpy as np
 
 from .._input import first_copies
+from .sorting import sort_runs
 
 SMALLEST_ROUND = 64
 MOST_ROUNDS = 24
@@ -54,15 +57,16 @@ def _hilbert(x, y):
 
 
 @numba.njit(nogil=True, cache=True)
-def _keys(points, low_x, low_y, scale, bits, index_bits, out):
-    """Places along the curve, of 2^bits cells a side, with the numbers of the sites in the low bits."""
+def _keys(points, low_x, low_y, scale, bits, index_bits, out, begin):
+    """Places along the curve, of 2^bits cells a side, with the numbers of the sites in the low bits; of as
+    many sites from ``begin`` on as there is room for."""
     top = (1 << bits) - 1
     finer = _COORDINATE_BITS - bits
-    for i in range(len(points)):
+    for i in range(begin, begin + len(out)):
         x = min(np.int64((points[i, 0] - low_x) * scale), top)
         y = min(np.int64((points[i, 1] - low_y) * scale), top)
         place = _hilbert(x << finer, y << finer) >> np.uint64(2 * finer)
-        out[i] = (place << np.uint64(index_bits)) | np.uint64(i)
+        out[i - begin] = (place << np.uint64(index_bits)) | np.uint64(i)
 
 
 @numba.njit(nogil=True, cache=True)
@@ -75,7 +79,7 @@ def _extent(points):
     return low_x, low_y, max(high_x - low_x, high_y - low_y)
 
 
-def along_curve(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def along_curve(points: np.ndarray, threads: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Sites sorted along Hilbert's curve, and pairs (a later copy, the first one): int64 (m,), int32 (k, 2).
 
     ``points`` are float64 (n, 2), finite, with no difference of coordinates that overflows. Of equal sites
@@ -87,9 +91,7 @@ def along_curve(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     low_x, low_y, extent = _extent(points)
     # the extent may be subnormal, so the sites are scaled in two steps
     scale = 2.0**bits / extent if extent > 2.0**-900 else 0.0
-    keys = np.empty(n, np.uint64)
-    _keys(points, low_x, low_y, scale, bits, index_bits, keys)
-    keys.sort()
+    keys = sort_runs(threads, n, partial(_keys, points, low_x, low_y, scale, bits, index_bits))
     index = (keys & np.uint64((1 << index_bits) - 1)).astype(np.int64)
     keys >>= np.uint64(index_bits)
     same = keys[1:] == keys[:-1]

@@ -14,6 +14,7 @@ from . import batch, circumcircle, optimistic, pessimistic, sequential, star, st
 from .compaction import compact
 from .correction import correct
 from .first import first_triangle
+from .hands import empty_hands
 from .lanes import empty_lanes
 from .order import along_curve
 from .pool import empty_pool
@@ -41,6 +42,7 @@ from .store import (
     Store,
 )
 from .subdivision import insertion_order
+from .suspects import empty_notes, noted
 from .threads import together
 
 METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
@@ -98,7 +100,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     """
     seconds = {}
     begun = time.perf_counter()
-    site, duplicates = along_curve(points)
+    site, duplicates = along_curve(points, options.threads)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
@@ -118,7 +120,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     store = Store(rows, first, options.threads, capacity)
     store.shared[STUMBLE, 0] = options.stumble
     sites = share(order, bounds)
-    run = _Run(options, store, sites)
+    run = Run(options, store, sites)
     ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
     elapsed = time.perf_counter() - clock
@@ -145,7 +147,7 @@ def parts_with_sites(options: Options) -> int:
     return options.threads - 1 if options.method == "batch" else options.threads
 
 
-class _Run:
+class Run:
     """The tasks of a run, called again after the structure has grown."""
 
     def __init__(self, options: Options, store: Store, sites: Sites) -> None:
@@ -153,9 +155,10 @@ class _Run:
         self.cpu_seconds = [0.0] * options.threads
         self.cells = empty_queue(options.queue_length)
         self.lanes = empty_lanes(options.threads)
-        self.hands = batch.empty_hands(options.threads)
+        self.hands = empty_hands(options.threads)
         self.pool = empty_pool(options.threads)
-        self.alone = min(circumcircle.HEAD_START * options.threads, len(sites.order) // (8 * options.threads))
+        self.notes = empty_notes(options.threads)
+        self.alone = min(circumcircle.HEAD_START, len(sites.order) // (8 * options.threads))
         self.work = [work_array(store.points) for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
@@ -202,7 +205,8 @@ class _Run:
         if o.method == "optimistic":
             return lambda: optimistic.run(*common, self.scratch[k], self.work[k])
         if o.method == "circumcircle":
-            return lambda: circumcircle.run(*common, self.pool, self.alone, walking, self.work[k])
+            tools = (self.pool, self.notes[k], self.lanes[k], self.hands[k])
+            return lambda: circumcircle.run(*common, *tools, self.alone, walking, self.work[k])
         if k < o.threads - 1:
             mine = (self.cells, self.lanes[k], self.hands[k])
             return lambda: batch.run_searching(*common, *mine, walking, o.helping, self.work[k])
@@ -210,12 +214,11 @@ class _Run:
 
     def correct(self) -> int:
         """Make up for swaps that were given up, if there can be any; how many were made."""
-        if not self.store.state[:, GIVEN_UP].any():
-            return 0
-        return correct(self.store, self.work, self.stop)
+        origins = noted(self.store, self.notes)
+        return correct(self.store, origins, self.work[0], self.stop) if len(origins) else 0
 
 
-def _statistics(run: _Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:
+def _statistics(run: Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:
     options, store = run.options, run.store
     state = store.state
 

@@ -10,18 +10,24 @@ import numpy as np
 
 from .atomics import acquire, load, load_acquire, release, store, store_release
 from .geometry import conflicts
-from .store import BLOCKED_SINCE, BLOCKER, CRITICAL, EXCEPTIONS, TESTS
+from .store import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
 
-# columns of `pool`: a thread's site or -1, how many it has finished, for whom it waits or -1, and whether
-# another one made use of its waiting
+# columns of `pool`: a thread's site or -1, how many it has finished, for which insertion of whom it waits or
+# -1, and whether another one made use of its waiting; then room for a path of waiting threads
 POOL_SITE, SERIAL, WAITS_FOR, EXCEPTIONAL = range(4)
+PATH = 16
+
+THREAD_BITS = 8  # of a word of WAITS_FOR; above them is how many that thread had finished
 
 NOBODY = -1
 
+# phases of a thread: before its next site is in the pool, before anything is changed for it, after that
+BEGIN, SUBDIVIDE, LEGALISE = range(3)
+
 
 def empty_pool(threads: int) -> np.ndarray:
-    """A pool without sites, int64 (threads, 16)."""
-    pool = np.zeros((threads, 16), np.int64)
+    """A pool without sites, int64 (threads, 16 k): each row has lines of the cache of its own."""
+    pool = np.zeros((threads, PATH + 16 * -(-threads // 16)), np.int64)
     pool[:, [POOL_SITE, WAITS_FOR]] = NOBODY
     return pool
 
@@ -48,28 +54,43 @@ def clear_exception(pool, me):
 
 
 @numba.njit(cache=True, forceinline=True)
-def still_waits(state, pool, me):
-    """Whether the thread that ``me`` waits for, if any, is still at the same insertion."""
-    i = state[me, BLOCKER]
-    if i == NOBODY:
-        return False
-    if load_acquire(pool, (i, SERIAL)) == state[me, BLOCKED_SINCE]:
-        return True
-    store(pool, (me, WAITS_FOR), NOBODY)
-    state[me, BLOCKER] = NOBODY
-    return False
+def _unfinished(pool, waits):
+    """Whether the insertion that a word of WAITS_FOR names has not ended."""
+    return load_acquire(pool, (waits & ((1 << THREAD_BITS) - 1), SERIAL)) == waits >> THREAD_BITS
 
 
 @numba.njit(cache=True, forceinline=True)
-def _leads_to(pool, i, me):
-    """Whether thread i waits for thread ``me``, through others perhaps."""
-    for _ in range(len(pool)):
-        i = load(pool, (i, WAITS_FOR))
-        if i == me:
-            return True
-        if i == NOBODY:
-            return False
+def still_waits(pool, me):
+    """Whether the insertion that ``me`` waits for, if any, has not ended."""
+    waits = pool[me, WAITS_FOR]
+    if waits == NOBODY:
+        return False
+    if _unfinished(pool, waits):
+        return True
+    store(pool, (me, WAITS_FOR), NOBODY)
     return False
+
+
+@numba.njit(cache=True)
+def _leads_to(pool, i, me):
+    """Whether thread i waits for the present insertion of ``me``, through others perhaps.
+
+    One whose wait is over may not have noticed, so every step of the path is looked at again: the last of
+    them cannot end before ``me`` says so, hence not the one before if it is for the same insertion still, and
+    so on.
+    """
+    length = 0
+    while i != me:
+        waits = load(pool, (i, WAITS_FOR))
+        if waits == NOBODY or length == len(pool):
+            return False
+        pool[me, PATH + length] = waits
+        length += 1
+        i = waits & ((1 << THREAD_BITS) - 1)
+    for k in range(length):  # noqa: SIM110 - numba has no all()
+        if not _unfinished(pool, pool[me, PATH + k]):
+            return False
+    return True
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -84,7 +105,8 @@ def blocker_of(points, nodes, state, pool, me, triangles, count, w):
     """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished;
     or `NOBODY`.
 
-    Threads that wait for this one are left out, and flagged.
+    Threads that wait for this one are left out, and flagged; where their stars are unfinished, that of this
+    one gets suspect.
     """
     for i in range(len(pool)):
         if i == me:
@@ -101,17 +123,19 @@ def blocker_of(points, nodes, state, pool, me, triangles, count, w):
                     return i, serial
                 store(pool, (i, EXCEPTIONAL), 1)
                 state[me, EXCEPTIONS] += 1
+                if load(state, (i, PHASE)) == LEGALISE:
+                    state[me, SUSPECT] = 1
                 break
     return NOBODY, 0
 
 
 @numba.njit(cache=True, forceinline=True)
-def wait_for(shared, state, pool, me, i, serial):
-    """Enter that ``me`` waits for i to finish, unless i waits for ``me`` already; whether it does."""
+def wait_for(shared, pool, me, i, serial):
+    """Enter that ``me`` waits for i, which had finished ``serial`` insertions, to finish one more, unless i
+    waits for ``me`` already; whether it does."""
     acquire(shared, (CRITICAL, 0), me + 1)
     deadlock = _leads_to(pool, i, me)
     if not deadlock:
-        store(pool, (me, WAITS_FOR), i)
-        state[me, BLOCKER], state[me, BLOCKED_SINCE] = i, serial
+        store(pool, (me, WAITS_FOR), serial << THREAD_BITS | i)
     release(shared, (CRITICAL, 0))
     return not deadlock

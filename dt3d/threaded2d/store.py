@@ -44,9 +44,10 @@ NODES_PER_SITE = 12
 # columns of `state`, a row for each thread. First what goes on, then what is counted.
 (
     NEXT, END, PART, BLOCK_AT, BLOCK_END, HINT, RANDOM,
-    PHASE, SITE, NODE, LAST, BLOCKER, BLOCKED_SINCE, AT, IN_HAND, HELPED,
+    PHASE, SITE, NODE, LAST, AT, IN_HAND, HELPED,
     INSERTED, VISITED, FLIPS, TESTS, ACCESSES, WAITS, GIVEN_UP, EXCEPTIONS, RETRIES,
     LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL, HELD,
+    SUSPECT, NOTED,
 ) = range(30)  # fmt: skip
 STATE_COLUMNS = 32
 
@@ -118,7 +119,6 @@ class Store:
         self.nodes = np.zeros((soft + self.reserve if capacity is None else capacity, 8), np.int32)
         write_roots(self.nodes, *(int(v) for v in first))
         self.state = np.zeros((threads, STATE_COLUMNS), np.int64)
-        self.state[:, BLOCKER] = -1
         self.state[:, PART] = np.arange(threads)
         self.state[:, RANDOM] = np.arange(1, threads + 1) * 0x9E3779B9
         self.shared = padded(SHARED_ROWS)

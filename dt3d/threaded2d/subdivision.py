@@ -20,10 +20,10 @@ def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.
     slots = (np.arange(n) * parts // n).astype(np.int32)
     if parts == 1 or subdivision == "curve":
         return slots
-    out = np.empty(n, np.int32)
     if subdivision == "random":
-        out[np.random.default_rng([seed, 1]).permutation(n)] = slots
-    elif subdivision == "x-slabs":
+        return np.random.default_rng([seed, 1]).permuted(slots)
+    out = np.empty(n, np.int32)
+    if subdivision == "x-slabs":
         out[np.argsort(points[:, 0], kind="stable")] = slots
     else:
         out[np.argsort((points**2).sum(axis=1), kind="stable")] = slots

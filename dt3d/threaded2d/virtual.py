@@ -24,6 +24,7 @@ from . import batch, circumcircle, optimistic
 from .costs import Costs, prepared
 from .dag import locate
 from .flips import insert
+from .hands import empty_hands
 from .lanes import empty_lanes
 from .plan import Options
 from .pool import empty_pool
@@ -31,6 +32,7 @@ from .queue import empty_queue
 from .share import borrowed_sites, next_site
 from .steps import CHANGED, FINISHED, WAITING
 from .store import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
+from .suspects import empty_notes
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
 _METHODS = {
@@ -64,8 +66,9 @@ def _counted(state, k):
 
 @numba.njit(cache=True, forceinline=True)
 def _step(
-    points, nodes, shared, state, sites, pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w
-):
+    points, nodes, shared, state, sites,
+    pool, notes, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
+):  # fmt: skip
     """A step of thread k."""
     if method == BATCH:
         if k == len(state) - 1:
@@ -74,7 +77,9 @@ def _step(
             points, nodes, shared, state, sites, cells, lanes[k], hands[k], k, False, helping, w
         )
     if method == CIRCUMCIRCLE:
-        return circumcircle.step(points, nodes, shared, state, sites, pool, k, False, w)
+        return circumcircle.step(
+            points, nodes, shared, state, sites, pool, notes[k], lanes[k], hands[k], k, False, w
+        )
     return optimistic.step(points, nodes, shared, state, sites, held[k], cavity[k], rim[k], k, w)
 
 
@@ -86,6 +91,7 @@ def _simulate(
     state,
     sites,
     pool,
+    notes,
     cells,
     lanes,
     hands,
@@ -101,7 +107,7 @@ def _simulate(
     """Seconds of the last element to end, and of all elements that were not spent waiting."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, pool, cells, w = borrowed_sites(sites), borrowed(pool), borrowed(cells), borrowed(w)
-    lanes, hands = borrowed(lanes), borrowed(hands)
+    notes, lanes, hands = borrowed(notes), borrowed(lanes), borrowed(hands)
     held, cavity, rim = borrowed(held), borrowed(cavity), borrowed(rim)
     visit, node, test, queue, locks, wait, time_slice = costs
     threads = len(state)
@@ -133,7 +139,7 @@ def _simulate(
         in_hand = state[k, INSERTED]
         did = _step(
             points, nodes, shared, state, sites,
-            pool, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
+            pool, notes, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
         )  # fmt: skip
         v2, f2, i2, c2 = _counted(state, k)
         if did == FINISHED:
@@ -245,9 +251,10 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
         )
         tools = (
             empty_pool(options.threads),
+            empty_notes(options.threads),
             empty_queue(max(2, options.queue_length)),
             empty_lanes(options.threads),
-            batch.empty_hands(options.threads),
+            empty_hands(options.threads),
         )
         seconds, busy = _simulate(*common, *tools, *scratch, method, options.helping, elements, price, w)
     s = store.state.sum(axis=0)

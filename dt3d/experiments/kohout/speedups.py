@@ -14,6 +14,7 @@ from ...threaded2d.correction import correct
 from ...threaded2d.costs import measure, prepared
 from ...threaded2d.delaunay import queue_for
 from ...threaded2d.plan import Options, triangulate
+from ...threaded2d.store import ROOTS
 from ...threaded2d.virtual import simulate
 from . import sets
 from .report import Row, publish
@@ -97,7 +98,7 @@ def _compiled(points: np.ndarray, options: Options) -> None:
     few = points[: min(500, len(points))]
     triangulate(few, options)
     store, _ = prepared(few, options)
-    correct(store, [work_array(store.points)], lambda: None)
+    correct(store, np.arange(ROOTS, dtype=np.int32), work_array(store.points), lambda: None)
 
 
 def _seconds(points: np.ndarray, options: Options) -> float:
