@@ -9,7 +9,8 @@ least one sees the other.
 Two that see each other would wait for ever. So a thread looks, in a short critical section, whether the one
 it would wait for waits for it, through others perhaps. Then it goes on, since those cannot, and flags their
 exceptional state: after they wake they locate again, or, if they were legalising, give up their remaining
-swaps. Those are made up for at the end (`correction`).
+swaps. The paper makes up for those in the end. Here all threads pause as soon as their insertions have ended
+(`suspects`, `correction`): what is left open spreads, on some sets to quadratically many swaps.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ from .steps import (
     FINISHED,
     GO_ON,
     LOCATED,
+    OPEN_SWAPS,
     WAITING,
     spend,
     verdict,
@@ -60,6 +62,7 @@ from .store import (
     LOCATION_CYCLES,
     NEIGHBOR,
     NODE,
+    OPEN,
     PHASE,
     SITE,
     SUSPECT,
@@ -71,9 +74,16 @@ from .store import (
 from .suspects import note_star
 from .walk import walk_history
 
-# The first thread is alone for so many sites, and no longer than an eighth of its own: where there are but a
-# few triangles, every insertion meets the others', and what is left open there spreads over all that follows.
 HEAD_START = 1024
+
+
+def ahead(n: int, threads: int) -> int:
+    """How many sites of each part the first thread inserts alone.
+
+    Where there are but a few triangles, every insertion meets the others', and what is left open there
+    spreads over all that follows. They are of all parts, so that the threads are then equally far.
+    """
+    return min(HEAD_START, n // (8 * threads)) // threads
 
 
 @numba.njit(cache=True, forceinline=True)
@@ -142,7 +152,7 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     if k >= 0:
         # the flat one of the three goes at once: nobody ever meets it, and it cannot be given up
         flat = first + 1 if k == 0 else (first + 2 if k == 1 else first)
-        made = flip(nodes, shared, state, me, flat, 0)
+        made = flip(nodes, shared, state, me, flat, 0, 0)
         first = made if flat == first else first
     state[me, NODE], state[me, LAST], state[me, PHASE] = first, nodes[first, 1], LEGALISE
     return CHANGED
@@ -164,7 +174,7 @@ def _try_flip(points, nodes, shared, state, pool, me, f, w):
         and a == _edge(nodes, u, (j + 1) % 3)
         and b == _edge(nodes, u, (j + 2) % 3)
     ):
-        state[me, NODE] = flip(nodes, shared, state, me, f, 0)
+        state[me, NODE] = flip(nodes, shared, state, me, f, 0, 0)
     return CHANGED
 
 
@@ -184,7 +194,7 @@ def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
         else:
             return _try_flip(points, nodes, shared, state, pool, me, f, w)
     if state[me, SUSPECT] != 0:
-        note_star(nodes, state, notes, me, f, state[me, SITE])
+        note_star(nodes, shared, state, notes, me, f, state[me, SITE])
         state[me, SUSPECT] = 0
     state[me, HINT] = f
     retire(pool, me)
@@ -238,9 +248,12 @@ def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alon
     waiting = 0
     begun = cycles()
     while True:
-        reason = verdict(shared, True, state[me, PHASE] == BEGIN)
+        between = state[me, PHASE] == BEGIN
+        reason = verdict(shared, True, between)
         if reason != GO_ON:
             return reason
+        if between and load(shared, (OPEN, 0)) != 0:
+            return OPEN_SWAPS
         did = step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w)
         if did == FINISHED:
             return DONE

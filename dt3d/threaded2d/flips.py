@@ -42,16 +42,17 @@ def subdivide(nodes, shared, state, me, t, p, lock):
 
 
 @numba.njit(cache=True, forceinline=True)
-def flip(nodes, shared, state, me, f, lock):
-    """Flip the edge of star triangle f opposite its first vertex; the first of the two new triangles."""
+def flip(nodes, shared, state, me, f, k, lock):
+    """Flip the edge of f opposite its k-th vertex, which is finite; the first of the two new triangles, which
+    have that vertex first."""
     first = fresh(state, me, shared, 2)
-    edge = nodes[f, NEIGHBOR]
+    edge = nodes[f, NEIGHBOR + k]
     u, j = edge >> 2, edge & 3
-    k = j + 1 if j < 2 else 0
-    i = 3 - j - k
-    p, a, b, d = nodes[f, 0], nodes[f, 1], nodes[f, 2], nodes[u, j]
-    following, previous = nodes[f, NEIGHBOR + 1], nodes[f, NEIGHBOR + 2]
-    beyond_ad, beyond_db = nodes[u, NEIGHBOR + k], nodes[u, NEIGHBOR + i]
+    k1, j1 = k + 1 if k < 2 else 0, j + 1 if j < 2 else 0
+    k2, j2 = 3 - k - k1, 3 - j - j1
+    p, a, b, d = nodes[f, k], nodes[f, k1], nodes[f, k2], nodes[u, j]
+    following, previous = nodes[f, NEIGHBOR + k1], nodes[f, NEIGHBOR + k2]
+    beyond_ad, beyond_db = nodes[u, NEIGHBOR + j1], nodes[u, NEIGHBOR + j2]
     _write(nodes, first, p, a, d, beyond_ad, 4 * (first + 1) + 2, previous, me, lock)
     _write(nodes, first + 1, p, d, b, beyond_db, following, 4 * first + 1, me, lock)
     _point_back(nodes, beyond_ad, first, 0)
@@ -82,7 +83,7 @@ def insert(points, nodes, shared, state, me, t, p, lock, w):
     last = nodes[f, 1]  # the edge from p to this vertex is never flipped
     while True:
         if illegal(points, nodes, f, w):
-            f = flip(nodes, shared, state, me, f, lock)
+            f = flip(nodes, shared, state, me, f, 0, lock)
         elif nodes[f, 2] == last:
             return f
         else:

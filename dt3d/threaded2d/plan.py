@@ -19,16 +19,19 @@ from .lanes import empty_lanes
 from .order import along_curve
 from .pool import empty_pool
 from .queue import empty_queue
-from .share import Sites, share
+from .share import TAKEN, Sites, ahead_of_all, share
 from .statistics import Statistics
 from .store import (
     ACCESSES,
     CHANGE_CYCLES,
+    END,
     EXCEPTIONS,
     FLIPS,
     GIVEN_UP,
     INSERTED,
     LOCATION_CYCLES,
+    NOTED,
+    OPEN,
     QUEUE_FILL,
     RETRIES,
     ROOTS,
@@ -119,17 +122,16 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
     store.shared[STUMBLE, 0] = options.stumble
+    if options.method == "circumcircle" and options.threads > 1:
+        order, bounds = ahead_of_all(order, bounds, circumcircle.ahead(len(order), options.threads))
     sites = share(order, bounds)
     run = Run(options, store, sites)
     ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
     elapsed = time.perf_counter() - clock
     per_cycle = elapsed / max(1, steps.now() - ticks)
-    seconds["insertion"] = time.perf_counter() - begun
-
-    begun = time.perf_counter()
-    corrected = run.correct()
-    seconds["correction"] = time.perf_counter() - begun
+    seconds["insertion"] = time.perf_counter() - begun - run.correcting
+    seconds["correction"] = run.correcting
 
     begun = time.perf_counter()
     used = capacity if capacity is not None else int(store.shared[USED, 0])
@@ -138,7 +140,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     inserted_by[site[first]] = 0
     inserted_by[site[order]] = sites.taker
     seconds["extraction"] = time.perf_counter() - begun
-    stats = _statistics(run, corrected, seconds, per_cycle)
+    stats = _statistics(run, seconds, per_cycle)
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
 
 
@@ -153,12 +155,16 @@ class Run:
     def __init__(self, options: Options, store: Store, sites: Sites) -> None:
         self.options, self.store, self.sites = options, store, sites
         self.cpu_seconds = [0.0] * options.threads
+        self.corrected, self.correcting = 0, 0.0  # swaps, seconds
         self.cells = empty_queue(options.queue_length)
         self.lanes = empty_lanes(options.threads)
         self.hands = empty_hands(options.threads)
         self.pool = empty_pool(options.threads)
         self.notes = empty_notes(options.threads)
-        self.alone = min(circumcircle.HEAD_START, len(sites.order) // (8 * options.threads))
+        # what lies in front of all parts is for the first thread
+        self.alone = int(sites.parts[0, TAKEN])
+        store.state[0, END] = self.alone
+        sites.taker[: self.alone] = 0
         self.work = [work_array(store.points) for _ in range(options.threads)]
         longest = 4 * len(store.points) + 64  # only what is used gets memory
         locking = options.method == "optimistic" or options.in_place
@@ -174,9 +180,12 @@ class Run:
         """Run all threads until all sites are inserted."""
         while True:
             results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
-            if steps.FULL not in results:
+            if steps.FULL in results:
+                self.store.grow()
+            elif steps.OPEN_SWAPS in results:
+                self.correct()
+            else:
                 return
-            self.store.grow()
 
     def _timed(self, k: int) -> Callable[[], Any]:
         """The task of thread k, its processor time added up."""
@@ -212,13 +221,17 @@ class Run:
             return lambda: batch.run_searching(*common, *mine, walking, o.helping, self.work[k])
         return lambda: batch.run_specialised(*common[:4], k, self.cells, self.hands[k], walking, self.work[k])
 
-    def correct(self) -> int:
-        """Make up for swaps that were given up, if there can be any; how many were made."""
+    def correct(self) -> None:
+        """Make up for swaps that were given up; no thread may be running."""
+        begun = time.perf_counter()
         origins = noted(self.store, self.notes)
-        return correct(self.store, origins, self.work[0], self.stop) if len(origins) else 0
+        self.corrected += correct(self.store, origins, self.work[0], self.stop)
+        self.store.state[:, NOTED] = 0
+        self.store.shared[OPEN, 0] = 0
+        self.correcting += time.perf_counter() - begun
 
 
-def _statistics(run: Run, corrected: int, seconds: dict[str, float], per_cycle: float) -> Statistics:
+def _statistics(run: Run, seconds: dict[str, float], per_cycle: float) -> Statistics:
     options, store = run.options, run.store
     state = store.state
 
@@ -244,7 +257,7 @@ def _statistics(run: Run, corrected: int, seconds: dict[str, float], per_cycle: 
         retries=counts(RETRIES),
         exceptions=int(state[:, EXCEPTIONS].sum()),
         given_up=int(state[:, GIVEN_UP].sum()),
-        corrected=corrected,
+        corrected=run.corrected,
         growths=store.growths,
         queue_fill=float(state[-1, QUEUE_FILL]) / max(1, int(state[-1, INSERTED])),
         seconds=seconds,

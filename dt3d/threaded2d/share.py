@@ -7,6 +7,7 @@ and when nothing is left of it pieces of other parts. Small parts are one piece.
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numba
@@ -44,6 +45,17 @@ def share(order: np.ndarray, bounds: np.ndarray) -> Sites:
     parts = padded(len(bounds) - 1)
     parts[:, TAKEN], parts[:, PART_END] = bounds[:-1], bounds[1:]
     return Sites(order, parts, np.full(len(order), -1, np.int16))
+
+
+def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The order with the first ``count`` sites of each part in front of all parts, and the bounds that the
+    parts then have; ``bounds[0]`` sites are in front."""
+    parts = list(pairwise(bounds.tolist()))
+    counts = [min(count, end - begin) for begin, end in parts]
+    front = [order[begin : begin + c] for (begin, _), c in zip(parts, counts, strict=True)]
+    rest = [order[begin + c : end] for (begin, end), c in zip(parts, counts, strict=True)]
+    left = np.append(0, np.cumsum(counts[::-1]))[::-1]
+    return np.concatenate(front + rest), bounds + left
 
 
 @numba.njit(cache=True, forceinline=True)

@@ -19,7 +19,7 @@ LOOKS = 50  # at the queue before a thread that waits sleeps: about a microsecon
 LOCATED, CHANGED, WAITING, FINISHED = range(4)
 
 # what a thread's run returns; no run returns `GO_ON`
-DONE, STOPPED, FULL, GO_ON = range(4)
+DONE, STOPPED, FULL, OPEN_SWAPS, GO_ON = range(5)
 
 
 @numba.njit(cache=True)

@@ -33,7 +33,7 @@ CHILD = 6
 LOCK = 7
 
 # rows of `shared`, one word each
-USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE = range(7)
+USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE, OPEN = range(8)
 SHARED_ROWS = 8
 
 BLOCK = 512  # nodes that a thread takes at a time

@@ -17,7 +17,8 @@ import numba
 import numpy as np
 
 from .atomics import load_acquire
-from .store import CHILD, NEIGHBOR, NOTED, ROOTS, Store
+from .atomics import store as atomic_store
+from .store import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
 
 CAPACITY = 4096  # triangles that a thread can note: those of some 600 stars
 
@@ -37,7 +38,7 @@ def _place_of(nodes, t, q):
 
 
 @numba.njit(cache=True)
-def note_star(nodes, state, notes, me, t, q):
+def note_star(nodes, shared, state, notes, me, t, q):
     """Note the triangles around site q of thread ``me``, of which t is one or was one.
 
     No other thread may be about to change them.
@@ -55,7 +56,8 @@ def note_star(nodes, state, notes, me, t, q):
         state[me, NOTED] += 1
         t = load_acquire(nodes, (t, NEIGHBOR + (_place_of(nodes, t, q) + 1) % 3)) >> 2
         if t == first:
-            return
+            break
+    atomic_store(shared, (OPEN, 0), 1)
 
 
 def noted(store: Store, notes: np.ndarray) -> np.ndarray:

@@ -4,12 +4,15 @@ import numba
 import numpy as np
 import pytest
 
+from dt3d import threaded2d
 from dt3d.predicates import work_array
-from dt3d.threaded2d import circumcircle, pool, suspects
+from dt3d.threaded2d import pool, suspects
+from dt3d.threaded2d.compaction import compact
 from dt3d.threaded2d.correction import _illegal
 from dt3d.threaded2d.costs import prepared
-from dt3d.threaded2d.plan import Options, Run, triangulate
-from dt3d.threaded2d.store import CHILD, EXCEPTIONS, GIVEN_UP, NEIGHBOR, NOTED, ROOTS, STUMBLE, SUSPECT, USED
+from dt3d.threaded2d.order import along_curve
+from dt3d.threaded2d.plan import Options, Run
+from dt3d.threaded2d.store import CHILD, EXCEPTIONS, NEIGHBOR, NOTED, ROOTS, STUMBLE, SUSPECT, USED
 
 from .families import DISTRIBUTIONS, EVERY_SET, canonical
 
@@ -69,28 +72,44 @@ def _illegal_edges(points, nodes, leaves, w):
     return found
 
 
-@pytest.mark.parametrize("name", EVERY_SET)
-def test_every_illegal_edge_is_beside_what_was_noted(name):
-    given_up = illegal = 0
-    points = EVERY_SET[name](300)
-    for seed in range(12):
-        options = Options("circumcircle", 2 + seed % 5, "random", "dag", 2, "random", seed).contended(2)
-        store, sites = prepared(points, options)
-        store.shared[STUMBLE, 0] = options.stumble
-        run = Run(options, store, sites)
-        run.alone = 0
-        run.to_the_end()
-        given_up += store.state[:, GIVEN_UP].sum()
+class _Watched(Run):
+    """A run that looks at the illegal edges before they are corrected."""
+
+    illegal = 0
+
+    def correct(self):
+        store = self.store
         leaves = np.flatnonzero(store.nodes[: store.shared[USED, 0], CHILD] < 0)
-        beside = np.array(_illegal_edges(store.points, store.nodes, leaves, run.work[0])).reshape(-1, 2)
-        below = _below(store, suspects.noted(store, run.notes))
+        beside = np.array(_illegal_edges(store.points, store.nodes, leaves, self.work[0])).reshape(-1, 2)
+        below = _below(store, suspects.noted(store, self.notes))
         assert np.isin(below, leaves).all()
         assert len(np.unique(below)) == len(below)
         assert np.isin(beside, below).any(axis=1).all()
-        illegal += len(beside)
+        self.illegal += len(beside)
+        super().correct()
+
+
+@pytest.mark.parametrize("name", EVERY_SET)
+def test_every_illegal_edge_is_beside_what_was_noted(name):
+    corrected = illegal = 0
+    points = EVERY_SET[name](300)
+    for seed in range(12):
+        run = _run(_Watched, points, 2 + seed % 5, seed)
+        corrected += run.corrected
+        illegal += run.illegal
     if name in DISTRIBUTIONS:
-        assert given_up > 0
+        assert corrected > 0
         assert illegal > 0
+
+
+def _run(kind, points, threads, seed):
+    """A run under contention, without a head start."""
+    options = Options("circumcircle", threads, "random", "dag", 2, "random", seed)
+    store, sites = prepared(points, options)
+    store.shared[STUMBLE, 0] = 2 if threads > 1 else 0
+    run = kind(options, store, sites)
+    run.to_the_end()
+    return run
 
 
 def _below(store, origins):
@@ -103,31 +122,34 @@ def _below(store, origins):
 
 
 def test_below_the_roots_is_everything():
-    points = EVERY_SET["uniform"](300)
-    store, sites = prepared(points, Options("circumcircle", 1, "random", "dag", 2, "random", 0))
-    run = Run(Options("circumcircle", 1, "random", "dag", 2, "random", 0), store, sites)
-    run.to_the_end()
-    assert not len(suspects.noted(store, run.notes))
+    store = _run(Run, EVERY_SET["uniform"](300), 1, 0).store
     assert not len(_below(store, np.empty(0, np.int32)))
     everything = _below(store, np.arange(ROOTS, dtype=np.int32))
     used = int(store.shared[USED, 0])
     np.testing.assert_array_equal(np.sort(everything), np.flatnonzero(store.nodes[:used, CHILD] < 0))
 
 
+class _Crowded(Run):
+    """A run that counts how often there was no room for notes."""
+
+    full = 0
+
+    def correct(self):
+        if (self.store.state[:, NOTED] > suspects.CAPACITY).any():
+            self.full += 1
+            np.testing.assert_array_equal(suspects.noted(self.store, self.notes), np.arange(ROOTS))
+        super().correct()
+
+
 def test_where_there_is_no_room_for_notes_everything_is_corrected(monkeypatch):
     monkeypatch.setattr(suspects, "CAPACITY", 5)
-    monkeypatch.setattr(circumcircle, "HEAD_START", 0)
     points = EVERY_SET["uniform"](300)
-    want = canonical(triangulate(points, Options("sequential", 1, "random", "dag", 2, "random", 0)).triangles)
+    want = canonical(threaded2d.Delaunay(points, method="sequential").triangles)
     full = 0
     for seed in range(12):
-        options = Options("circumcircle", 4, "random", "dag", 2, "random", seed).contended(2)
-        store, sites = prepared(points, options)
-        store.shared[STUMBLE, 0] = options.stumble
-        run = Run(options, store, sites)
-        run.to_the_end()
-        if (store.state[:, NOTED] > 5).any():
-            full += 1
-            np.testing.assert_array_equal(suspects.noted(store, run.notes), np.arange(ROOTS))
-        np.testing.assert_array_equal(canonical(triangulate(points, options).triangles), want)
+        run = _run(_Crowded, points, 4, seed)
+        full += run.full
+        used = int(run.store.shared[USED, 0])
+        rows = along_curve(points)[0]
+        np.testing.assert_array_equal(canonical(compact(run.store.nodes, used, np.sort(rows))[0]), want)
     assert full > 0
