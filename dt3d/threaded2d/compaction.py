@@ -1,11 +1,11 @@
-"""What is left in the end: the triangles without infinite vertex, without gaps."""
+"""What is left in the end: the triangles without infinite vertex, without gaps.
+
+Nodes are numbered piece by piece; the threads take pieces in turn, as what is left is mostly of late.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from functools import partial
-from itertools import pairwise
-from typing import Any
 
 import numba
 import numpy as np
@@ -13,36 +13,36 @@ import numpy as np
 from .store import CHILD, NEIGHBOR
 from .threads import together
 
-
-@numba.njit(nogil=True, cache=True)
-def _number(nodes, begin, end, number):
-    """Number the finite leaves among nodes begin to end - 1 from 0 on; how many."""
-    m = 0
-    for t in range(begin, end):
-        if nodes[t, CHILD] < 0 and min(nodes[t, 0], nodes[t, 1], nodes[t, 2]) >= 0:
-            number[t] = m
-            m += 1
-        else:
-            number[t] = -1
-    return m
+PIECE_BITS = 14  # of a node's number within its piece
 
 
 @numba.njit(nogil=True, cache=True)
-def _shift(number, begin, end, before):
-    for t in range(begin, end):
-        if number[t] >= 0:
-            number[t] += before
+def _number(nodes, used, first, step, number, counts):
+    """Number the finite leaves of each piece from 0 on, -1 for other nodes, and count them; of the pieces
+    first, first + step, ..."""
+    for piece in range(first, len(counts), step):
+        m = 0
+        for t in range(piece << PIECE_BITS, min((piece + 1) << PIECE_BITS, used)):
+            if nodes[t, CHILD] < 0 and min(nodes[t, 0], nodes[t, 1], nodes[t, 2]) >= 0:
+                number[t] = m
+                m += 1
+            else:
+                number[t] = -1
+        counts[piece] = m
 
 
 @numba.njit(nogil=True, cache=True)
-def _collect(nodes, begin, end, number, site, triangles, neighbors, maker):
-    for t in range(begin, end):
-        s = number[t]
-        if s >= 0:
-            for k in range(3):
-                triangles[s, k] = site[nodes[t, k]]
-                neighbors[s, k] = number[nodes[t, NEIGHBOR + k] >> 2]
-            maker[s] = -1 - nodes[t, CHILD]
+def _collect(nodes, used, first, step, number, before, site, triangles, neighbors, maker):
+    """Write the finite leaves of pieces; ``before`` each are so many of other pieces."""
+    for piece in range(first, len(before), step):
+        for t in range(piece << PIECE_BITS, min((piece + 1) << PIECE_BITS, used)):
+            if number[t] >= 0:
+                s = number[t] + before[piece]
+                for k in range(3):
+                    triangles[s, k] = site[nodes[t, k]]
+                    u = nodes[t, NEIGHBOR + k] >> 2
+                    neighbors[s, k] = number[u] + before[u >> PIECE_BITS] if number[u] >= 0 else -1
+                maker[s] = -1 - nodes[t, CHILD]
 
 
 def compact(
@@ -52,21 +52,19 @@ def compact(
 
     ``site`` holds the number of each row of the points, int (n,).
     """
-    number = np.empty(used, np.int32)
-    bounds = list(pairwise([used * k // threads for k in range(threads + 1)]))
-    counts = _together(partial(_number, nodes, begin, end, number) for begin, end in bounds)
-    before = np.concatenate([[0], np.cumsum(counts)])
-    _together(partial(_shift, number, *bounds[k], before[k]) for k in range(1, threads))
-    m = before[-1]
+    pieces = -(-used >> PIECE_BITS)
+    threads = min(threads, pieces)
+    number, counts = np.empty(used, np.int32), np.empty(pieces, np.int32)
+    _together([partial(_number, nodes, used, k, threads, number, counts) for k in range(threads)])
+    before = np.cumsum(counts, dtype=np.int32) - counts
+    m = int(counts.sum())
     triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
     maker = np.empty(m, np.int16)
-    _together(
-        partial(_collect, nodes, begin, end, number, site, triangles, neighbors, maker)
-        for begin, end in bounds
-    )
+    out = (number, before, site, triangles, neighbors, maker)
+    _together([partial(_collect, nodes, used, k, threads, *out) for k in range(threads)])
     return triangles, neighbors, maker
 
 
-def _together(tasks: Iterable[Callable[[], Any]]) -> list[Any]:
+def _together(tasks: list[partial[None]]) -> None:
     """Run tasks that are too short to be stopped."""
-    return together(list(tasks), lambda: None)
+    together(tasks, lambda: None)

@@ -110,12 +110,18 @@ def along_curve(points: np.ndarray, threads: int = 1) -> tuple[np.ndarray, np.nd
 
 
 @numba.njit(nogil=True, cache=True)
-def _round_of(i, seed, rounds):
-    """The round of site i: the last with probability 1/2, the one before with 1/4, and so on."""
+def mixed(i, seed):
+    """64 random bits for number i: SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014)."""
     z = np.uint64(i) + np.uint64(seed) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(0x632BE59BD9B4E019)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    z ^= z >> np.uint64(31)
+    return z ^ (z >> np.uint64(31))
+
+
+@numba.njit(nogil=True, cache=True)
+def _round_of(i, seed, rounds):
+    """The round of site i: the last with probability 1/2, the one before with 1/4, and so on."""
+    z = mixed(i, seed)
     r = rounds - 1
     while r > 0 and z & np.uint64(1):
         z >>= np.uint64(1)

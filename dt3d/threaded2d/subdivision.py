@@ -5,9 +5,17 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from .order import brio
+from .order import brio, mixed
 
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
+
+
+@numba.njit(nogil=True, cache=True)
+def _shuffle(slots, seed):
+    """R. A. Fisher and F. Yates: each is exchanged with one of those up to it, at random."""
+    for i in range(len(slots) - 1, 0, -1):
+        j = (mixed(i, seed) >> np.uint64(32)) * np.uint64(i + 1) >> np.uint64(32)
+        slots[i], slots[j] = slots[j], slots[i]
 
 
 def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.ndarray:
@@ -21,7 +29,8 @@ def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.
     if parts == 1 or subdivision == "curve":
         return slots
     if subdivision == "random":
-        return np.random.default_rng([seed, 1]).permuted(slots)
+        _shuffle(slots, seed)
+        return slots
     out = np.empty(n, np.int32)
     if subdivision == "x-slabs":
         out[np.argsort(points[:, 0], kind="stable")] = slots
