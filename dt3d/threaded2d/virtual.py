@@ -4,8 +4,8 @@ A scheduler lets the element whose clock is least take the next step of its thre
 that real threads take, on the very structure. It then sets the clock forward by what the step has counted
 (nodes visited, edges flipped, tests ...) times costs that were measured in a sequential run. So waits,
 deadlocks, lock conflicts and a queue that is full or empty come about as they would, and a run can be
-repeated. What is left out: caches, which made the paper's speed-ups more than linear, and the memory's
-bandwidth.
+repeated. What is left out: caches, which made the paper's speed-ups more than linear, the memory's bandwidth,
+and the correction of swaps that were given up.
 
 Elements take turns with their threads when a thread waits, and after a slice of time when there are more
 threads than elements.

@@ -1,4 +1,4 @@
-"""The parts of the batch method by themselves: the queue, and location of several sites at a time."""
+"""What the methods are made of, by itself: the queue, location of several sites at a time, sharing sites."""
 
 import numba
 import numpy as np
@@ -10,7 +10,7 @@ from dt3d.threaded2d.atomics import padded
 from dt3d.threaded2d.costs import prepared
 from dt3d.threaded2d.plan import Options
 from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
-from dt3d.threaded2d.share import PIECE, share, take
+from dt3d.threaded2d.share import PIECE, ahead_of_all, share, take
 from dt3d.threaded2d.steps import DONE
 from dt3d.threaded2d.store import END, NEXT, PART, SHARED_ROWS, STATE_COLUMNS
 from dt3d.threaded2d.threads import together
@@ -133,6 +133,15 @@ def test_a_thread_that_has_done_its_part_takes_of_the_others():
     assert all(end - begin == PIECE for begin, end in taken)
     assert not take(state, sites, 1)
     assert (sites.taker == np.where(np.arange(2 * n) // PIECE == 5, 1, 0)).all()
+
+
+def test_the_first_sites_of_all_parts_go_ahead():
+    order, bounds = ahead_of_all(np.arange(10) * 10, np.array([0, 5, 6, 10]), 2)
+    assert order.tolist() == [0, 10, 50, 60, 70, 20, 30, 40, 80, 90]
+    assert bounds.tolist() == [5, 8, 8, 10]
+    order, bounds = ahead_of_all(np.arange(6), np.array([0, 3, 6]), 0)
+    assert order.tolist() == list(range(6))
+    assert bounds.tolist() == [0, 3, 6]
 
 
 def test_small_parts_stay_with_their_threads():
