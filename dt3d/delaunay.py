@@ -228,6 +228,38 @@ class Delaunay:
         """Facets of the convex hull, int32 (h, 3), oriented outwards (counter-clockwise from outside)."""
         return _topology.hull_facets(self.simplices, self.neighbors)
 
+    def find_simplex(self, xi: Any) -> np.ndarray:
+        """The tetrahedron that contains each point, exactly; as `scipy.spatial.Delaunay.find_simplex`.
+
+        Parameters
+        ----------
+        xi : array_like, real (..., 3)
+
+        Returns
+        -------
+        int32 (...)
+            Rows of `simplices`; `dt3d.OUTSIDE` (-1) for points outside the convex hull. Of several tetrahedra
+            that have a point on their common border, any one.
+
+        Raises
+        ------
+        ValueError
+            If the points are not finite, real and of shape (..., 3).
+        """
+        from .location import find
+
+        return find(self.points, self.simplices, self.neighbors, xi, self._exact)
+
+    @cached_property
+    def vertex_neighbor_vertices(self) -> tuple[np.ndarray, np.ndarray]:
+        """The vertices that an edge joins with each site: ``(indptr, indices)``, int32 (n + 1,) and (2 e,).
+
+        Those of site k are ``indices[indptr[k]:indptr[k + 1]]``, in ascending order; none for duplicates.
+        """
+        from ._vertices import neighbors_of_vertices
+
+        return neighbors_of_vertices(self.simplices, len(self.points))
+
     def verify(self) -> Verification:
         """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails.
 

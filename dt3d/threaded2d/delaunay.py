@@ -145,6 +145,28 @@ class Delaunay:
         t, k = np.nonzero(self.neighbors < 0)
         return np.column_stack([self.triangles[t, (k + 1) % 3], self.triangles[t, (k + 2) % 3]])
 
+    def find_simplex(self, xi: Any) -> np.ndarray:
+        """The triangle that contains each point, exactly; as `scipy.spatial.Delaunay.find_simplex`.
+
+        Parameters
+        ----------
+        xi : array_like, real (..., 2)
+
+        Returns
+        -------
+        int32 (...)
+            Rows of `triangles`; `dt3d.OUTSIDE` (-1) for points outside the convex hull. Of several triangles
+            that have a point on their common border, any one.
+
+        Raises
+        ------
+        ValueError
+            If the points are not finite, real and of shape (..., 2).
+        """
+        from ..location import find
+
+        return find(self.points, self.triangles, self.neighbors, xi)
+
     def verify(self) -> Verification:
         """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it
         fails."""

@@ -1,0 +1,52 @@
+"""Which vertices are joined by an edge."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+
+@numba.njit(cache=True)
+def _around(simplices, n):
+    """The tetrahedra around each vertex: where those of vertex v begin, and all of them."""
+    begin = np.zeros(n + 1, np.int64)
+    for t in range(len(simplices)):
+        for k in range(4):
+            begin[simplices[t, k] + 1] += 1
+    for v in range(n):
+        begin[v + 1] += begin[v]
+    at, around = begin[:-1].copy(), np.empty(4 * len(simplices), np.int32)
+    for t in range(len(simplices)):
+        for k in range(4):
+            v = simplices[t, k]
+            around[at[v]] = t
+            at[v] += 1
+    return begin, around
+
+
+@numba.njit(cache=True)
+def neighbors_of_vertices(simplices, n):
+    """(indptr, indices), int32: indices[indptr[v]:indptr[v + 1]] are the vertices that an edge joins with v,
+    in ascending order; for tetrahedra int (m, 4) of n sites."""
+    begin, around = _around(simplices, n)
+    indptr = np.zeros(n + 1, np.int32)
+    # Euler: n + m + h / 2 - 1 edges, where the hull has h < 2 n facets; each is entered twice
+    indices = np.empty(2 * (2 * n + len(simplices)) + 64, np.int32)
+    seen = np.full(n, -1, np.int32)
+    count = 0
+    for v in range(n):
+        first = count
+        for i in range(begin[v], begin[v + 1]):
+            for k in range(4):
+                u = simplices[around[i], k]
+                if u != v and seen[u] != v:
+                    seen[u] = v
+                    if count == len(indices):
+                        longer = np.empty(2 * count, np.int32)
+                        longer[:count] = indices
+                        indices = longer
+                    indices[count] = u
+                    count += 1
+        indices[first:count].sort()
+        indptr[v + 1] = count
+    return indptr, indices[:count].copy()

@@ -1,0 +1,135 @@
+"""Which tetrahedron, or triangle in the plane, contains a point: visibility walks, with exact orientations.
+
+A walk crosses any facet that has the point on its other side, which ends in a Delaunay triangulation (O.
+Devillers, S. Pion, M. Teillaud: Walking in a triangulation, International Journal of Foundations of Computer
+Science 13, 2002). Many points are taken along a space-filling curve, each from where the one before was.
+"""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numba
+import numpy as np
+
+from ._compiling import announce_compilation
+from ._input import check_points
+from ._topology import OUTSIDE
+from .insertion.order import along_curve
+from .predicates import work_array
+from .predicates.filtered import orient3d
+from .predicates.filtered2d import orient2d
+
+PIECE = 4096  # points that a thread takes at a time
+LOST = -2  # a walk that went on too long: not in a triangulation with inconsistencies only
+
+
+@numba.njit(cache=True)
+def _beyond(rows, simplices, t, k, q, w):
+    """Whether q lies strictly beyond the facet of t opposite its k-th vertex."""
+    a = q if k == 0 else simplices[t, 0]
+    b = q if k == 1 else simplices[t, 1]
+    c = q if k == 2 else simplices[t, 2]
+    if simplices.shape[1] == 3:
+        return orient2d(rows, a, b, c, w) < 0
+    d = q if k == 3 else simplices[t, 3]
+    return orient3d(rows, a, b, c, d, w) < 0
+
+
+@numba.njit(cache=True)
+def _walk(rows, simplices, neighbors, t, q, w):
+    """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended."""
+    came, facets = OUTSIDE, simplices.shape[1]
+    for step in range(len(simplices)):
+        ahead = t
+        for i in range(facets):
+            k = (i + step) % facets  # another first facet each time
+            u = neighbors[t, k]
+            if (u != came or u == OUTSIDE) and _beyond(rows, simplices, t, k, q, w):
+                if u == OUTSIDE:
+                    return OUTSIDE, t
+                ahead = u
+                break
+        if ahead == t:
+            return t, t
+        came, t = t, ahead
+    return LOST, t
+
+
+@numba.njit(cache=True)
+def _search(rows, simplices, q, w):
+    """The first simplex that contains row q, or `OUTSIDE`."""
+    for t in range(len(simplices)):
+        contained = True
+        for k in range(simplices.shape[1]):
+            contained = contained and not _beyond(rows, simplices, t, k, q, w)
+        if contained:
+            return t
+    return OUTSIDE
+
+
+@numba.njit(nogil=True, cache=True)
+def _find(rows, simplices, neighbors, convex, points, order, begin, end, out, w):
+    """Locate points[order[begin:end]]; the last row is for the point at hand."""
+    t, q = 0, len(rows) - 1
+    for i in order[begin:end]:
+        rows[q] = points[i]
+        out[i], t = _walk(rows, simplices, neighbors, t, q, w)
+        if out[i] < 0 and not convex:
+            out[i] = _search(rows, simplices, q, w)
+
+
+def find(
+    sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, xi: Any, convex: bool = True
+) -> np.ndarray:
+    """The simplex that contains each point, int32 (...); `OUTSIDE` where there is none.
+
+    Parameters
+    ----------
+    sites : float64 (n, d)
+        d is 2 or 3.
+    simplices, neighbors : int32 (m, d + 1)
+    xi : array_like, real (..., d)
+    convex : bool
+        Whether the simplices are known to fill a convex hull. Otherwise all are searched for a point that no
+        walk has found.
+
+    Raises
+    ------
+    ValueError
+        If the points are not finite, real and of shape (..., d).
+    """
+    dimension = sites.shape[1]
+    given = xi if np.ma.isMaskedArray(xi) else np.asarray(xi)
+    if given.ndim < 1 or given.shape[-1] != dimension:
+        msg = f"points to be located must have shape (..., {dimension}), got {given.shape}"
+        raise ValueError(msg)
+    out = np.full(given.shape[:-1], OUTSIDE, np.int32)
+    if not out.size:
+        return out
+    announce_compilation()
+    points = check_points(given.reshape(-1, dimension), dimension)
+    inside = np.flatnonzero(((points >= sites.min(axis=0)) & (points <= sites.max(axis=0))).all(axis=1))
+    found, w = out.reshape(-1), work_array(sites)
+    order = inside[_along_curve(points[inside])]
+
+    def work(begin: int, end: int) -> None:
+        rows = np.concatenate([sites, points[:1]])
+        _find(rows, simplices, neighbors, convex, points, order, begin, end, found, w.copy())
+
+    threads = max(1, min(os.cpu_count() or 1, len(order) // PIECE))
+    bounds = [len(order) * k // threads for k in range(threads + 1)]
+    with ThreadPoolExecutor(threads) as pool:
+        list(pool.map(work, bounds[:-1], bounds[1:]))
+    return out
+
+
+def _along_curve(points: np.ndarray) -> np.ndarray:
+    """The rows of points (n, 2) or (n, 3) along a space-filling curve."""
+    if len(points) < 2:
+        return np.arange(len(points))
+    in_space = np.zeros((len(points), 3))
+    in_space[:, : points.shape[1]] = points
+    return along_curve(in_space, lambda work, n: work(0, n))

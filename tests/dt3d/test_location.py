@@ -1,0 +1,170 @@
+"""Which tetrahedron contains a point, and which vertices are joined."""
+
+import numpy as np
+import pytest
+import scipy.spatial
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import dt3d
+from dt3d import location, threaded2d
+
+from . import families
+from .exact import integers, orient
+
+
+def assert_located(tri, points, found):
+    """Exactly: what was found contains the points, and those outside are beyond a facet of the hull."""
+    both = integers(np.concatenate([tri.points, points]))
+    sites, points = both[: len(tri.points)], both[len(tri.points) :]
+    inside = found >= 0
+    corners = sites[tri.simplices[found[inside]]]
+    for k in range(4):
+        replaced = [points[inside] if i == k else corners[:, i] for i in range(4)]
+        assert (orient(*replaced) >= 0).all()
+    a, b, c = (sites[tri.convex_hull[:, i]] for i in range(3))
+    for p in points[~inside]:
+        assert (orient(a, b, c, np.broadcast_to(p, a.shape)) > 0).any()
+
+
+def special_points(tri):
+    """Vertices, and middles of edges, facets and tetrahedra, where sites are multiples of twelve."""
+    corners = tri.points[tri.simplices]
+    middles = [corners[:, :k].sum(axis=1) / k for k in (2, 3, 4)]
+    return np.concatenate([tri.points, *middles])
+
+
+@pytest.mark.parametrize(
+    "sites",
+    [
+        families.grid(4),
+        families.octahedron(),
+        families.skew_lines(6),
+        families.rings(7, 3),
+        families.plane_and_apex(5),
+    ],
+    ids=["grid", "octahedron", "skew lines", "rings", "plane and apex"],
+)
+def test_points_on_vertices_edges_and_facets(sites):
+    tri = dt3d.Delaunay(12 * sites)
+    points = special_points(tri)
+    found = tri.find_simplex(points)
+    assert found.dtype == np.int32
+    assert_located(tri, points, found)
+    outwards = points + 1e-9 * (points - points.mean(axis=0))
+    assert_located(tri, outwards, tri.find_simplex(outwards))
+
+
+@pytest.mark.parametrize("options", [{}, {"method": "extrapolation"}, {"robustness": "perturb"}])
+def test_scipy_finds_the_same(options):
+    rng = np.random.default_rng(0)
+    sites, points = rng.random((500, 3)), 1.4 * rng.random((3000, 3)) - 0.2
+    tri, theirs = dt3d.Delaunay(sites, **options), scipy.spatial.Delaunay(sites)
+    found, expected = tri.find_simplex(points), theirs.find_simplex(points)
+    np.testing.assert_array_equal(found < 0, expected < 0)
+    inside = found >= 0
+    assert 500 < inside.sum() < 2500
+    np.testing.assert_array_equal(
+        np.sort(tri.simplices[found[inside]], axis=1), np.sort(theirs.simplices[expected[inside]], axis=1)
+    )
+
+
+integer_points = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=1, max_size=20)
+
+
+@given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3), min_size=4, max_size=14), integer_points)
+@settings(max_examples=150, deadline=None)
+def test_any_integer_points(sites, points):
+    try:
+        tri = dt3d.Delaunay(sites)
+    except dt3d.DegenerateInputError:
+        return
+    points = np.array(points, float)
+    assert_located(tri, points, tri.find_simplex(points))
+
+
+def test_shapes_and_kinds_of_points():
+    tri = dt3d.Delaunay(families.grid(3))
+    assert tri.find_simplex([0.5, 0.5, 0.5]).shape == ()
+    assert tri.find_simplex(np.full((2, 5, 3), 0.5)).shape == (2, 5)
+    assert tri.find_simplex(np.empty((0, 3))).shape == (0,)
+    assert tri.find_simplex([[1, 1, 1], [9, 9, 9]])[1] == dt3d.OUTSIDE
+    assert (tri.find_simplex([[1e300, 0, 0], [5e-324, -5e-324, 0], [-1e300, 1e300, 0]]) == -1).all()
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ([1, 2], r"shape \(\.\.\., 3\), got \(2,\)"),
+        (3.0, r"shape \(\.\.\., 3\), got \(\)"),
+        ([[0, 0, np.nan], [0, 0, 0]], "1 rows have NaN or infinity, the first is row 0"),
+        ([["a", "b", "c"]], "real numbers"),
+        (np.ma.masked_equal([[1.0, 2.0, 3.0]], 2), "masked"),
+    ],
+)
+def test_errors(points, message):
+    with pytest.raises(ValueError, match=message):
+        dt3d.Delaunay(families.grid(2)).find_simplex(points)
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e300, 1.0])
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+def test_any_scale(scale, offset):
+    rng = np.random.default_rng(1)
+    sites, points = (
+        (rng.random((60, 3)) + offset) * scale,
+        (1.2 * rng.random((200, 3)) - 0.1 + offset) * scale,
+    )
+    tri = dt3d.Delaunay(sites)
+    assert_located(tri, points, tri.find_simplex(points))
+
+
+def test_in_the_plane():
+    rng = np.random.default_rng(5)
+    sites, points = rng.random((500, 2)), 1.4 * rng.random((3000, 2)) - 0.2
+    tri, theirs = threaded2d.Delaunay(sites), scipy.spatial.Delaunay(sites)
+    found, expected = tri.find_simplex(points), theirs.find_simplex(points)
+    np.testing.assert_array_equal(found < 0, expected < 0)
+    inside = found >= 0
+    assert 500 < inside.sum() < 2500
+    np.testing.assert_array_equal(
+        np.sort(tri.triangles[found[inside]], axis=1), np.sort(theirs.simplices[expected[inside]], axis=1)
+    )
+    found = tri.find_simplex(sites)
+    assert (tri.triangles[found] == np.arange(500)[:, None]).any(axis=1).all()
+    with pytest.raises(ValueError, match=r"shape \(\.\.\., 2\), got \(3,\)"):
+        tri.find_simplex([1, 2, 3])
+
+
+def test_many_points_by_several_threads(monkeypatch):
+    rng = np.random.default_rng(2)
+    tri, points = dt3d.Delaunay(rng.random((2000, 3))), rng.random((5000, 3))
+    alone = tri.find_simplex(points)
+    monkeypatch.setattr(location, "PIECE", 500)
+    monkeypatch.setattr(location.os, "cpu_count", lambda: 7)
+    np.testing.assert_array_equal(tri.find_simplex(points), alone)
+
+
+def test_a_mesh_with_a_hole_is_searched_where_no_walk_ends():
+    tri = dt3d.Delaunay(np.random.default_rng(3).random((200, 3)))
+    points = tri.points[tri.simplices].mean(axis=1)
+    hole = int(tri.find_simplex([0.5, 0.5, 0.5]))
+    keep = np.arange(len(tri.simplices)) != hole
+    number = np.append(np.cumsum(keep) - 1, -1)
+    number[hole] = -1
+    simplices, neighbors = tri.simplices[keep], number[tri.neighbors[keep]].astype(np.int32)
+    found = location.find(tri.points, simplices, neighbors, points, convex=False)
+    np.testing.assert_array_equal(found, number[: len(keep)])
+
+
+@pytest.mark.parametrize(
+    "sites", [families.grid(4), np.random.default_rng(4).random((300, 3))], ids=["grid", "random"]
+)
+def test_neighbors_of_vertices(sites):
+    tri = dt3d.Delaunay(np.concatenate([sites, sites[:1]]))
+    indptr, indices = tri.vertex_neighbor_vertices
+    assert indptr.dtype == indices.dtype == np.int32
+    joined = {(int(s[i]), int(s[j])) for s in tri.simplices for i in range(4) for j in range(4) if i != j}
+    found = [(v, int(u)) for v in range(len(tri.points)) for u in indices[indptr[v] : indptr[v + 1]]]
+    assert found == sorted(joined)
+    assert indptr[-1] == indptr[-2]  # the last site is a copy
