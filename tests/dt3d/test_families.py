@@ -10,10 +10,12 @@ from .families import LARGE, SMALL, check_ties, grid, integer_sphere, skew_lines
 
 METHODS = ["insertion", "extrapolation"]
 QUICK = 3000  # sites that extrapolation does in some seconds
+CROWDED = {"rings", "skew lines"}  # unless each face is compared with most of them; fewer are in SMALL
 
 
-def slow(points, method):
-    return [pytest.mark.slow] if method == "extrapolation" and len(points) > QUICK else []
+def slow(name, points, method):
+    long = len(points) > QUICK or name in CROWDED
+    return [pytest.mark.slow] if method == "extrapolation" and long else []
 
 
 def assert_it_is_what_insertion_finds_in_another_order(tri):
@@ -35,7 +37,7 @@ def test_small_sets(name, method):
 @pytest.mark.parametrize(
     ("name", "method"),
     [
-        pytest.param(name, method, marks=slow(points, method))
+        pytest.param(name, method, marks=slow(name, points, method))
         for name, points in LARGE.items()
         for method in METHODS
     ],
