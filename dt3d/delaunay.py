@@ -23,6 +23,7 @@ from .extrapolation import triangulate as extrapolate
 if TYPE_CHECKING:
     import pyvista
 
+    from .location import Locator
     from .verification import Verification
 
 METHODS = ("auto", "insertion", "extrapolation")
@@ -246,9 +247,13 @@ class Delaunay:
         ValueError
             If the points are not finite, real and of shape (..., 3).
         """
-        from .location import find
+        return self._locator.find(xi)
 
-        return find(self.points, self.simplices, self.neighbors, xi, self._exact)
+    @cached_property
+    def _locator(self) -> Locator:
+        from .location import Locator
+
+        return Locator(self.points, self.simplices, self.neighbors, self._exact)
 
     @cached_property
     def vertex_neighbor_vertices(self) -> tuple[np.ndarray, np.ndarray]:

@@ -8,6 +8,7 @@ Science 13, 2002). Many points are taken along a space-filling curve, each from 
 from __future__ import annotations
 
 import os
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -71,59 +72,82 @@ def _search(rows, simplices, q, w):
 
 
 @numba.njit(nogil=True, cache=True)
-def _find(rows, simplices, neighbors, convex, points, order, begin, end, out, w):
-    """Locate points[order[begin:end]]; the last row is for the point at hand."""
-    t, q = 0, len(rows) - 1
+def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
+    """Locate points[order[begin:end]], from simplex t on; where the last walk ended. Row q is for the point."""
     for i in order[begin:end]:
         rows[q] = points[i]
         out[i], t = _walk(rows, simplices, neighbors, t, q, w)
         if out[i] < 0 and not convex:
             out[i] = _search(rows, simplices, q, w)
+    return t
 
 
-def find(
-    sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, xi: Any, convex: bool = True
-) -> np.ndarray:
-    """The simplex that contains each point, int32 (...); `OUTSIDE` where there is none.
+class Locator:
+    """What locates points in one triangulation.
 
     Parameters
     ----------
     sites : float64 (n, d)
         d is 2 or 3.
     simplices, neighbors : int32 (m, d + 1)
-    xi : array_like, real (..., d)
     convex : bool
         Whether the simplices are known to fill a convex hull. Otherwise all are searched for a point that no
         walk has found.
-
-    Raises
-    ------
-    ValueError
-        If the points are not finite, real and of shape (..., d).
     """
-    dimension = sites.shape[1]
-    given = xi if np.ma.isMaskedArray(xi) else np.asarray(xi)
-    if given.ndim < 1 or given.shape[-1] != dimension:
-        msg = f"points to be located must have shape (..., {dimension}), got {given.shape}"
-        raise ValueError(msg)
-    out = np.full(given.shape[:-1], OUTSIDE, np.int32)
-    if not out.size:
+
+    def __init__(
+        self, sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, convex: bool = True
+    ) -> None:
+        announce_compilation()
+        self.simplices, self.neighbors, self.convex = simplices, neighbors, convex
+        self.low, self.high = sites.min(axis=0), sites.max(axis=0)
+        threads = os.cpu_count() or 1
+        # predicates take rows of one array, so every thread has a row for the point at hand
+        self.rows = np.concatenate([sites, np.empty((threads, sites.shape[1]))])
+        self.works = [work_array(sites) for _ in range(threads)]
+        self.last = [0] * threads
+
+    def find(self, xi: Any) -> np.ndarray:
+        """The simplex that contains each point of xi, real (..., d): int32 (...), or `OUTSIDE`.
+
+        Raises
+        ------
+        ValueError
+            If the points are not finite, real and of shape (..., d).
+        """
+        dimension = len(self.low)
+        given = xi if np.ma.isMaskedArray(xi) else np.asarray(xi)
+        if given.ndim < 1 or given.shape[-1] != dimension:
+            msg = f"points to be located must have shape (..., {dimension}), got {given.shape}"
+            raise ValueError(msg)
+        out = np.full(given.shape[:-1], OUTSIDE, np.int32)
+        if out.size:
+            points = check_points(given.reshape(-1, dimension), dimension)
+            within = np.flatnonzero(((points >= self.low) & (points <= self.high)).all(axis=1))
+            with _ONE_AT_A_TIME:
+                self._find(points, within[_along_curve(points[within])], out.reshape(-1))
         return out
-    announce_compilation()
-    points = check_points(given.reshape(-1, dimension), dimension)
-    inside = np.flatnonzero(((points >= sites.min(axis=0)) & (points <= sites.max(axis=0))).all(axis=1))
-    found, w = out.reshape(-1), work_array(sites)
-    order = inside[_along_curve(points[inside])]
 
-    def work(begin: int, end: int) -> None:
-        rows = np.concatenate([sites, points[:1]])
-        _find(rows, simplices, neighbors, convex, points, order, begin, end, found, w.copy())
+    def _find(self, points: np.ndarray, order: np.ndarray, out: np.ndarray) -> None:
+        threads = max(1, min(len(self.last), len(order) // PIECE))
+        bounds = [len(order) * k // threads for k in range(threads + 1)]
 
-    threads = max(1, min(os.cpu_count() or 1, len(order) // PIECE))
-    bounds = [len(order) * k // threads for k in range(threads + 1)]
-    with ThreadPoolExecutor(threads) as pool:
-        list(pool.map(work, bounds[:-1], bounds[1:]))
-    return out
+        def work(k: int) -> None:
+            row = len(self.rows) - 1 - k
+            self.last[k] = _find(
+                self.rows, self.simplices, self.neighbors, self.convex, row, self.last[k],
+                points, order, bounds[k], bounds[k + 1], out, self.works[k],
+            )  # fmt: skip
+
+        if threads == 1:
+            work(0)
+            return
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(work, range(threads)))
+
+
+# the rows for points at hand have one user
+_ONE_AT_A_TIME = threading.Lock()
 
 
 def _along_curve(points: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ from .subdivision import SUBDIVISIONS
 if TYPE_CHECKING:
     import pyvista
 
+    from ..location import Locator
     from .verification import Verification
 
 MOST_THREADS = 64
@@ -163,9 +164,13 @@ class Delaunay:
         ValueError
             If the points are not finite, real and of shape (..., 2).
         """
-        from ..location import find
+        return self._locator.find(xi)
 
-        return find(self.points, self.triangles, self.neighbors, xi)
+    @cached_property
+    def _locator(self) -> Locator:
+        from ..location import Locator
+
+        return Locator(self.points, self.triangles, self.neighbors)
 
     def verify(self) -> Verification:
         """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it

@@ -1,5 +1,7 @@
 """Which tetrahedron contains a point, and which vertices are joined."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 import scipy.spatial
@@ -136,13 +138,24 @@ def test_in_the_plane():
         tri.find_simplex([1, 2, 3])
 
 
+def test_callers_in_several_threads():
+    rng = np.random.default_rng(6)
+    tri, points = dt3d.Delaunay(rng.random((1000, 3))), rng.random((2000, 3))
+    want = tri.find_simplex(points)
+    with ThreadPoolExecutor(4) as pool:
+        for found in pool.map(lambda _: [int(tri.find_simplex(p)) for p in points], range(4)):
+            np.testing.assert_array_equal(found, want)
+
+
 def test_many_points_by_several_threads(monkeypatch):
     rng = np.random.default_rng(2)
     tri, points = dt3d.Delaunay(rng.random((2000, 3))), rng.random((5000, 3))
     alone = tri.find_simplex(points)
     monkeypatch.setattr(location, "PIECE", 500)
     monkeypatch.setattr(location.os, "cpu_count", lambda: 7)
-    np.testing.assert_array_equal(tri.find_simplex(points), alone)
+    several = location.Locator(tri.points, tri.simplices, tri.neighbors)
+    np.testing.assert_array_equal(several.find(points), alone)
+    assert min(several.last) > 0
 
 
 def test_a_mesh_with_a_hole_is_searched_where_no_walk_ends():
@@ -153,7 +166,7 @@ def test_a_mesh_with_a_hole_is_searched_where_no_walk_ends():
     number = np.append(np.cumsum(keep) - 1, -1)
     number[hole] = -1
     simplices, neighbors = tri.simplices[keep], number[tri.neighbors[keep]].astype(np.int32)
-    found = location.find(tri.points, simplices, neighbors, points, convex=False)
+    found = location.Locator(tri.points, simplices, neighbors, convex=False).find(points)
     np.testing.assert_array_equal(found, number[: len(keep)])
 
 
