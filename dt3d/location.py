@@ -73,7 +73,7 @@ def _search(rows, simplices, q, w):
 
 @numba.njit(nogil=True, cache=True)
 def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
-    """Locate points[order[begin:end]], from simplex t on; where the last walk ended. Row q is for the point."""
+    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended."""
     for i in order[begin:end]:
         rows[q] = points[i]
         out[i], t = _walk(rows, simplices, neighbors, t, q, w)
