@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -103,7 +104,9 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     """
     seconds = {}
     begun = time.perf_counter()
-    site, duplicates = along_curve(points, options.threads)
+    # what never waits gains nothing from more threads than processors
+    busy = min(options.threads, os.cpu_count() or 1)
+    site, duplicates = along_curve(points, busy)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
@@ -135,7 +138,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
 
     begun = time.perf_counter()
     used = capacity if capacity is not None else int(store.shared[USED, 0])
-    triangles, neighbors, maker = compact(store.nodes, used, site, options.threads)
+    triangles, neighbors, maker = compact(store.nodes, used, site, busy)
     inserted_by = np.full(len(points), -1, np.int16)
     inserted_by[site[first]] = 0
     inserted_by[site[order]] = sites.taker
@@ -150,7 +153,7 @@ def parts_with_sites(options: Options) -> int:
 
 
 class Run:
-    """The tasks of a run, called again after the structure has grown."""
+    """The tasks of a run, called again after the structure has grown or swaps were corrected."""
 
     def __init__(self, options: Options, store: Store, sites: Sites) -> None:
         self.options, self.store, self.sites = options, store, sites
