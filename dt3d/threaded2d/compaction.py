@@ -66,5 +66,8 @@ def compact(
 
 
 def _together(tasks: list[partial[None]]) -> None:
-    """Run tasks that are too short to be stopped."""
-    together(tasks, lambda: None)
+    """Run tasks that are too short to be stopped; one alone without a thread of its own."""
+    if len(tasks) == 1:
+        tasks[0]()
+    else:
+        together(tasks, lambda: None)
