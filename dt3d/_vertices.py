@@ -30,8 +30,7 @@ def neighbors_of_vertices(simplices, n):
     in ascending order; for tetrahedra int (m, 4) of n sites."""
     begin, around = _around(simplices, n)
     indptr = np.zeros(n + 1, np.int32)
-    # Euler: n + m + h / 2 - 1 edges, where the hull has h < 2 n facets; each is entered twice
-    indices = np.empty(2 * (2 * n + len(simplices)) + 64, np.int32)
+    indices = np.empty(12 * len(simplices), np.int32)  # only what is used gets memory
     seen = np.full(n, -1, np.int32)
     count = 0
     for v in range(n):
@@ -41,10 +40,6 @@ def neighbors_of_vertices(simplices, n):
                 u = simplices[around[i], k]
                 if u != v and seen[u] != v:
                     seen[u] = v
-                    if count == len(indices):
-                        longer = np.empty(2 * count, np.int32)
-                        longer[:count] = indices
-                        indices = longer
                     indices[count] = u
                     count += 1
         indices[first:count].sort()

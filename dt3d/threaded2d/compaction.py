@@ -11,7 +11,7 @@ import numba
 import numpy as np
 
 from .store import CHILD, NEIGHBOR
-from .threads import together
+from .threads import briefly
 
 PIECE_BITS = 14  # of a node's number within its piece
 
@@ -55,19 +55,11 @@ def compact(
     pieces = -(-used >> PIECE_BITS)
     threads = min(threads, pieces)
     number, counts = np.empty(used, np.int32), np.empty(pieces, np.int32)
-    _together([partial(_number, nodes, used, k, threads, number, counts) for k in range(threads)])
+    briefly([partial(_number, nodes, used, k, threads, number, counts) for k in range(threads)])
     before = np.cumsum(counts, dtype=np.int32) - counts
     m = int(counts.sum())
     triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
     maker = np.empty(m, np.int16)
     out = (number, before, site, triangles, neighbors, maker)
-    _together([partial(_collect, nodes, used, k, threads, *out) for k in range(threads)])
+    briefly([partial(_collect, nodes, used, k, threads, *out) for k in range(threads)])
     return triangles, neighbors, maker
-
-
-def _together(tasks: list[partial[None]]) -> None:
-    """Run tasks that are too short to be stopped; one alone without a thread of its own."""
-    if len(tasks) == 1:
-        tasks[0]()
-    else:
-        together(tasks, lambda: None)

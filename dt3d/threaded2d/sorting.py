@@ -9,7 +9,7 @@ from itertools import pairwise
 import numba
 import numpy as np
 
-from .threads import together
+from .threads import briefly
 
 WORTH_A_THREAD = 20_000  # words: below that a thread takes longer to start than to sort them
 
@@ -53,10 +53,7 @@ def sort_runs(runs: int, n: int, fill: Callable[[np.ndarray, int], None]) -> np.
         fill(words[begin:end], begin)
         words[begin:end].sort()
 
-    if runs == 1:
-        make(0, n)
-        return words
-    together([partial(make, begin, end) for begin, end in pairwise(bounds)], _no_stop)
+    briefly([partial(make, begin, end) for begin, end in pairwise(bounds)])
     while len(bounds) > 2:
         tasks = []
         for begin, middle, end in zip(bounds[:-2:2], bounds[1:-1:2], bounds[2::2], strict=True):
@@ -64,11 +61,7 @@ def sort_runs(runs: int, n: int, fill: Callable[[np.ndarray, int], None]) -> np.
             tasks += [partial(_merge_front, *merged), partial(_merge_back, *merged)]
         if len(bounds) % 2 == 0:  # a run without a partner
             other[bounds[-2] :] = words[bounds[-2] :]
-        together(tasks, _no_stop)
+        briefly(tasks)
         bounds = [*bounds[:-1:2], n]
         words, other = other, words
     return words
-
-
-def _no_stop() -> None:
-    """The tasks here are short."""

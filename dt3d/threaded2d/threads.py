@@ -51,3 +51,11 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     if failures:
         raise failures[0]
     return results
+
+
+def briefly(tasks: Sequence[Callable[[], Any]]) -> None:
+    """Run tasks that are too short to be stopped; one alone without a thread of its own."""
+    if len(tasks) == 1:
+        tasks[0]()
+    else:
+        together(tasks, lambda: None)

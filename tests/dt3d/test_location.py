@@ -61,13 +61,18 @@ def test_points_on_vertices_edges_and_facets(sites):
 def test_scipy_finds_the_same(options):
     rng = np.random.default_rng(0)
     sites, points = rng.random((500, 3)), 1.4 * rng.random((3000, 3)) - 0.2
-    tri, theirs = dt3d.Delaunay(sites, **options), scipy.spatial.Delaunay(sites)
+    tri = dt3d.Delaunay(sites, **options)
+    assert_scipy_finds_the_same(tri, tri.simplices, points)
+
+
+def assert_scipy_finds_the_same(tri, simplices, points):
+    theirs = scipy.spatial.Delaunay(tri.points)
     found, expected = tri.find_simplex(points), theirs.find_simplex(points)
     np.testing.assert_array_equal(found < 0, expected < 0)
     inside = found >= 0
     assert 500 < inside.sum() < 2500
     np.testing.assert_array_equal(
-        np.sort(tri.simplices[found[inside]], axis=1), np.sort(theirs.simplices[expected[inside]], axis=1)
+        np.sort(simplices[found[inside]], axis=1), np.sort(theirs.simplices[expected[inside]], axis=1)
     )
 
 
@@ -124,14 +129,8 @@ def test_any_scale(scale, offset):
 def test_in_the_plane():
     rng = np.random.default_rng(5)
     sites, points = rng.random((500, 2)), 1.4 * rng.random((3000, 2)) - 0.2
-    tri, theirs = threaded2d.Delaunay(sites), scipy.spatial.Delaunay(sites)
-    found, expected = tri.find_simplex(points), theirs.find_simplex(points)
-    np.testing.assert_array_equal(found < 0, expected < 0)
-    inside = found >= 0
-    assert 500 < inside.sum() < 2500
-    np.testing.assert_array_equal(
-        np.sort(tri.triangles[found[inside]], axis=1), np.sort(theirs.simplices[expected[inside]], axis=1)
-    )
+    tri = threaded2d.Delaunay(sites)
+    assert_scipy_finds_the_same(tri, tri.triangles, points)
     found = tri.find_simplex(sites)
     assert (tri.triangles[found] == np.arange(500)[:, None]).any(axis=1).all()
     with pytest.raises(ValueError, match=r"shape \(\.\.\., 2\), got \(3,\)"):
