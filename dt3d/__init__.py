@@ -6,7 +6,13 @@
 (4, dtype('int32'))
 """
 
-from ._errors import DegenerateInputError, InconsistencyError, InconsistencyWarning, QuadraticSearchWarning
+from ._errors import (
+    DegenerateInputError,
+    InconsistencyError,
+    InconsistencyWarning,
+    InternalError,
+    QuadraticSearchWarning,
+)
 from ._stats import InsertionStatistics, Progress, Statistics
 from ._topology import OUTSIDE
 from .delaunay import Delaunay
@@ -20,6 +26,7 @@ __all__ = [
     "InconsistencyError",
     "InconsistencyWarning",
     "InsertionStatistics",
+    "InternalError",
     "Progress",
     "QuadraticSearchWarning",
     "Statistics",

@@ -37,3 +37,16 @@ class InconsistencyWarning(RuntimeWarning):
 
 class QuadraticSearchWarning(RuntimeWarning):
     """Extrapolation compares each of thousands of faces with thousands of sites, as on one sphere."""
+
+
+class InternalError(RuntimeError):
+    """A fault of dt3d itself: something happened that no right run can do. The message asks for a report.
+
+    Raised in place of an endless loop or of a wrong result, for example where a walk takes more steps than
+    there are tetrahedra.
+    """
+
+    def __init__(self, what: str) -> None:
+        super().__init__(
+            f"{what}. This is a fault of dt3d, not of the input; please report it, with the points if you can"
+        )
