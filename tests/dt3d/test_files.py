@@ -215,3 +215,35 @@ def test_the_shipped_set():
     assert points[0].tolist() == [-20.014, -20.694, -17.415]
     assert points.min(axis=0).tolist() == [-41.827, -70.782, -110.691]
     assert points.max(axis=0).tolist() == [116.198, 37.265, 7.784]
+
+
+def test_one_dimension_is_asked_for_or_what_the_file_has(tmp_path):
+    np.save(tmp_path / "space.npy", POINTS)
+    np.save(tmp_path / "plane.npy", POINTS[:, :2])
+    assert read_points(tmp_path / "space.npy", dimension=None).shape == (4, 3)
+    assert read_points(tmp_path / "plane.npy", dimension=None).shape == (4, 2)
+    np.testing.assert_array_equal(read_points(tmp_path / "space.npy", dimension=2), POINTS[:, :2])
+    np.testing.assert_array_equal(read_points(tmp_path / "plane.npy", dimension=2), POINTS[:, :2])
+    with pytest.raises(ValueError, match=r"plane\.npy: expected .*\(n, 3\), found \(4, 2\).*dimension=2"):
+        read_points(tmp_path / "plane.npy")
+    with pytest.raises(ValueError, match="dimension must be 2, 3 or None, got 4"):
+        read_points(tmp_path / "space.npy", dimension=4)
+
+
+def test_an_array_that_lies_on_its_side_is_told_to_be_transposed(tmp_path):
+    np.save(tmp_path / "a.npy", POINTS.T)
+    with pytest.raises(ValueError, match=r"found \(3, 4\); transpose it \(array\.T\)"):
+        read_points(tmp_path / "a.npy")
+    np.save(tmp_path / "b.npy", np.load(tmp_path / "a.npy").T)  # as the message says
+    same(read_points(tmp_path / "b.npy"))
+
+
+def test_numbers_that_double_precision_does_not_hold_are_errors(tmp_path):
+    np.save(tmp_path / "a.npy", np.array([[0, 0, 0], [1, 2**53 + 1, 2**55]]))
+    with pytest.raises(ValueError, match="9007199254740993.* row 1.*exactly"):
+        read_points(tmp_path / "a.npy")
+    np.save(tmp_path / "b.npy", np.array([[2**55, 2**63, 1]], np.uint64))
+    assert read_points(tmp_path / "b.npy").tolist() == [[2.0**55, 2.0**63, 1.0]]
+    np.save(tmp_path / "c.npy", np.array([[2**64 - 1, 0, 1]], np.uint64))
+    with pytest.raises(ValueError, match="18446744073709551615.* row 0.*exactly"):
+        read_points(tmp_path / "c.npy")
