@@ -7,24 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ._mesh import import_pyvista
+from ._numpy_files import read_npy, read_npz
 from ._paths import import_meshio
-
-
-def _read_npy(path: Path) -> np.ndarray:
-    try:
-        loaded = np.load(path, allow_pickle=False)
-    except (ValueError, EOFError) as error:
-        msg = f"{path} is not a NumPy array file: {error}"
-        raise ValueError(msg) from None
-    if isinstance(loaded, np.ndarray):
-        return loaded
-    with loaded:
-        names = loaded.files
-        if "points" not in names and len(names) != 1:
-            msg = f"{path}: expected an array 'points' or a single array, found {', '.join(names) or 'none'}"
-            raise ValueError(msg)
-        return loaded["points" if "points" in names else names[0]]
+from ._stl_files import read_stl
+from ._vtk_legacy import read_legacy
+from ._vtk_xml import read_xml
 
 
 def _read_meshio(path: Path) -> np.ndarray:
@@ -37,17 +24,16 @@ def _read_meshio(path: Path) -> np.ndarray:
         raise ValueError(msg) from error
 
 
-def _read_pyvista(path: Path) -> np.ndarray:
-    mesh = import_pyvista().read(path)
-    if not getattr(mesh, "n_points", 0):
-        msg = f"{path} holds no points that VTK can read"
-        raise ValueError(msg)
-    return np.asarray(mesh.points)
+def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path], np.ndarray]:
+    return lambda path: read(path)["points"]
 
 
 BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
-    **dict.fromkeys([".npy", ".npz"], _read_npy),
+    ".npy": read_npy,
+    ".npz": read_npz,
     **dict.fromkeys([".ply", ".off"], _read_meshio),
-    **dict.fromkeys([".vtk", ".vtu", ".vtp", ".stl"], _read_pyvista),
+    ".vtk": _points_of(read_legacy),
+    **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
+    ".stl": read_stl,
 }
 """A reader for each extension: takes a Path, gives an array of numbers (n, k)."""

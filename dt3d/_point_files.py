@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from ._columns import as_float64
 from ._compressed import inner, unpacked
 from ._paths import by_extension, check_file
 from ._point_binary import BINARY_READERS
@@ -83,22 +84,5 @@ def _points(path: Path, found: np.ndarray, dimension: int | None) -> np.ndarray:
         elif found.ndim == 2 and found.shape[1] == 2:
             msg += "; points in the plane are read with dimension=2, for dt3d.threaded2d"
         raise ValueError(msg)
-    if found.dtype.kind not in "iuf":
-        msg = f"{path}: expected real numbers, found {found.dtype}"
-        raise ValueError(msg)
     found = found[:, : found.shape[1] if dimension is None else dimension]
-    return _to_float64(found, f"{path}: the array")
-
-
-def _to_float64(found: np.ndarray, what: str) -> np.ndarray:
-    """The numbers as float64 in C order; what float64 does not hold exactly is an error with its row."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        array = found.astype(np.float64, order="C")
-        same = (array.astype(found.dtype) == found) | (found != found)
-        if found.dtype.kind in "iu":  # 2^63 and 2^64 wrap when they come back
-            same &= np.abs(array) < 2.0 ** (8 * found.dtype.itemsize - (found.dtype.kind == "i"))
-    if not same.all():
-        row, column = np.argwhere(~same)[0]
-        msg = f"{what} has {found[row, column]!r} in row {row}, which float64 does not hold exactly"
-        raise ValueError(msg)
-    return array
+    return np.ascontiguousarray(as_float64(found, str(path)))
