@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ._mesh import hull_to_pyvista, import_pyvista, to_pyvista, volumes
-from ._paths import by_extension, check_file, check_folder, import_meshio
+from ._paths import by_extension, check_file, check_writable, import_meshio, written_aside
 
 
 @dataclass(frozen=True)
@@ -52,10 +52,8 @@ def write_mesh(tri: Any, path: str | Path) -> None:
         As `check_mesh_path` says, and if the file cannot be written.
     """
     path = check_mesh_path(path)
-    WRITERS[path.suffix.lower()](tri, path)
-    if not path.exists():  # VTK reports a failure on the terminal only
-        msg = f"{path} could not be written"
-        raise OSError(msg)
+    with written_aside(path) as aside:
+        WRITERS[path.suffix.lower()](tri, aside)
 
 
 def check_mesh_path(path: str | Path) -> Path:
@@ -65,12 +63,13 @@ def check_mesh_path(path: str | Path) -> Path:
     ------
     ValueError
         For an extension that `write_mesh` does not know.
-    FileNotFoundError
-        If the folder does not exist.
+    OSError
+        If the folder does not exist or may not be written, or the file may not be replaced.
     """
     path = Path(path)
     by_extension(path, WRITERS, "write a mesh to")
-    return check_folder(path)
+    check_writable(path)
+    return path
 
 
 def read_mesh(path: str | Path) -> Mesh:
