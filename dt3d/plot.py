@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._mesh import INSTALL_VIEW
-from ._paths import check_writable, written_aside
+from ._output import save_figure
+from ._paths import check_writable
 from ._topology import OUTWARD
 
 if TYPE_CHECKING:
@@ -101,8 +102,7 @@ def draw(
     if last > 1:
         axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
         _add_scale(mpl, figure, axes, last, size)
-    with written_aside(path) as aside:
-        figure.savefig(aside)
+    save_figure(figure, path)
 
 
 def _add_scale(mpl: Any, figure: Any, axes: Any, last: int, size: float) -> None:
