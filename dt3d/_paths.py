@@ -7,9 +7,14 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar
 
+from scanvec._writing import check_writable, written_aside
+
 from ._mesh import INSTALL_VIEW
 
 INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
+__all__ = [
+    "by_extension", "check_file", "check_writable", "import_for_format", "import_meshio", "written_aside",
+]  # fmt: skip
 
 F = TypeVar("F", bound=Callable)
 
@@ -18,14 +23,6 @@ def check_file(path: Path) -> Path:
     """The path, if there is such a file; otherwise a FileNotFoundError."""
     if not path.exists():
         msg = f"there is no file {path}"
-        raise FileNotFoundError(msg)
-    return path
-
-
-def check_folder(path: Path) -> Path:
-    """The path, if its folder exists; otherwise a FileNotFoundError."""
-    if not path.parent.is_dir():
-        msg = f"cannot write {path}: there is no folder {path.parent}"
         raise FileNotFoundError(msg)
     return path
 

@@ -194,7 +194,7 @@ def verify(file: Path) -> None:
     Parameters
     ----------
     file
-        A mesh of tetrahedra, positively oriented: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+        A mesh of tetrahedra, positively oriented: .vtu .vtk .npz .msh .mesh.
     """
     from .files import read_mesh
     from .verification import verify as check
@@ -216,7 +216,7 @@ def view(file: Path, *, screenshot: Path | None = None) -> None:
     Parameters
     ----------
     file
-        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh.
     screenshot
         Draw into this file and open no window; works without a screen.
     """

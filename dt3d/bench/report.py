@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import platform
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
+from .. import _output as output
 from .rounds import Measured
 
 if TYPE_CHECKING:
@@ -94,18 +94,15 @@ def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
 
 def write_csv(measured: Sequence[Measured], path: Path) -> None:
     """A line for each library and set; several runs are separated by spaces."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(
-            ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
-             "verified", "runs", "ended"]
-        )  # fmt: skip
-        for rows in by_set(measured):
-            for row in rows:
-                writer.writerow(
-                    [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
-                     row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
-                )  # fmt: skip
+    names = ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
+             "verified", "runs", "ended"]  # fmt: skip
+    lines = [
+        [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
+         row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
+        for rows in by_set(measured)
+        for row in rows
+    ]  # fmt: skip
+    output.write_csv(path, names, lines)
 
 
 def draw(measured: Sequence[Measured], path: Path) -> None:
@@ -134,4 +131,4 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
     axes.grid(axis="y", alpha=0.3)
     axes.legend()
     axes.set_title(machine(), fontsize="small")
-    figure.savefig(path, dpi=150)
+    output.save_figure(figure, path, dpi=150)
