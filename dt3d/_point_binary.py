@@ -8,9 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from ._gmsh_files import read_gmsh_points
+from ._las_files import read_las
 from ._medit_files import read_medit
 from ._numpy_files import read_npy, read_npz
 from ._paths import import_meshio
+from ._pcd_files import read_pcd
+from ._ply_files import read_ply
 from ._stl_files import read_stl
 from ._vtk_legacy import read_legacy
 from ._vtk_xml import read_xml
@@ -33,7 +36,10 @@ def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path]
 BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
     ".npy": read_npy,
     ".npz": read_npz,
-    **dict.fromkeys([".ply", ".off"], _read_meshio),
+    ".ply": read_ply,
+    ".off": _read_meshio,
+    ".pcd": read_pcd,
+    **dict.fromkeys([".las", ".laz"], read_las),
     ".vtk": _points_of(read_legacy),
     **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
     ".stl": read_stl,
