@@ -9,7 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from ._child import read_in_child
 from ._paths import import_for_format
+
+WITH_WAVES = (4, 5, 9, 10)
+"""Point formats after which a file may have wave packets."""
 
 
 def read_las(path: Path) -> np.ndarray:
@@ -28,12 +32,20 @@ def read_las(path: Path) -> np.ndarray:
     with _silent("laspy"), laspy.open(path) as file:
         header = file.header
         promised, size = header.point_count, path.stat().st_size
-        if header.are_points_compressed:
-            import_for_format("lazrs")
-        elif header.offset_to_point_data + promised * header.point_format.size > size:
+        packed = header.are_points_compressed
+        if not packed and header.offset_to_point_data + promised * header.point_format.size > size:
             msg = f"{path} is cut off: {promised} points are promised, more than its {size} bytes hold"
             raise ValueError(msg)
-        points = np.array(file.read().xyz, np.float64)
+        elif not packed and not header.number_of_evlrs and header.point_format.id not in WITH_WAVES:
+            left = size - header.offset_to_point_data - promised * header.point_format.size
+            if left >= header.point_format.size:
+                msg = f"{path} is damaged: {left} bytes follow the {promised} points that are promised"
+                raise ValueError(msg)
+        points = np.empty((0, 3)) if packed else np.array(file.read().xyz, np.float64)
+    if packed:
+        import_for_format("lazrs")
+        # lazrs panics, which prints and can end the process, where packed points are damaged
+        return read_in_child("_laz_child.py", path)
     if len(points) != promised or not promised:
         msg = f"{path} holds {len(points)} points; its header promises {promised}"
         raise ValueError(msg)

@@ -58,10 +58,10 @@ def one_line(text: str) -> str:
 
 def _sentence(error: BaseException, path: Path, called: Path, otherwise: str) -> str:
     """The error's own words if they name the file, else ``otherwise`` and its words."""
-    words = str(error)
-    if str(path) in words:
-        return one_line(words.replace(str(path), str(called)))
+    words = str(error).replace(str(path), str(called))
+    if str(called) not in words:
+        words = f"{otherwise}: {words}" if words else otherwise
     words = one_line(words)
-    if len(words) > LONGEST_REASON:
-        words = words[:LONGEST_REASON] + " ..."
-    return one_line(f"{otherwise}: {words}" if words else otherwise)
+    # the path may be as long as it likes
+    most = len(str(called)) + LONGEST_REASON
+    return words if len(words) <= most else f"{words[:most]} ..."

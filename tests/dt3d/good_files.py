@@ -1,4 +1,4 @@
-"""A whole file of every format that is not a table of text, with the points that it holds, and ways to spoil it."""
+"""A whole file of every format that is not a table of text, its points, and ways to spoil it."""
 
 from __future__ import annotations
 
@@ -57,7 +57,8 @@ def stl_text(path: Path) -> None:
     lines = ["solid cloud"]
     for t in _triangles():
         lines += ["facet normal 0 0 1", "outer loop"]
-        lines += [f"vertex {x!r} {y!r} {z!r}" for x, y, z in POINTS[list(t)].tolist()] + ["endloop", "endfacet"]
+        lines += [f"vertex {x!r} {y!r} {z!r}" for x, y, z in POINTS[list(t)].tolist()]
+        lines += ["endloop", "endfacet"]
     path.write_text("\n".join([*lines, "endsolid cloud", ""]))
 
 
@@ -115,7 +116,8 @@ def vtu(path: Path, form: str = "ascii", compressor: str = "", encoding: str = "
     attribute = f' compressor="{compressor}"' if compressor else ""
     text = (
         f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
-        f'header_type="UInt64"{attribute}>\n<UnstructuredGrid>\n<Piece NumberOfPoints="{N}" NumberOfCells="{M}">\n'
+        f'header_type="UInt64"{attribute}>\n<UnstructuredGrid>\n'
+        f'<Piece NumberOfPoints="{N}" NumberOfCells="{M}">\n'
         f"<Points>{tags['Points']}</Points>\n"
         f"<Cells>{tags['connectivity']}{tags['offsets']}{tags['types']}</Cells>\n"
         f"<CellData>{tags['iteration']}</CellData>\n</Piece>\n</UnstructuredGrid>\n"
@@ -126,7 +128,7 @@ def vtu(path: Path, form: str = "ascii", compressor: str = "", encoding: str = "
 
 
 def packed(data: bytes, compressor: str, encoding: str) -> bytes:
-    """An array as VTK's XML has it: a header of sizes and the bytes, in blocks of 128 if they are compressed."""
+    """An array as VTK's XML has it: a header of sizes and the bytes, in blocks if they are compressed."""
     code = base64.b64encode if encoding == "base64" else bytes
     if not compressor:
         return code(struct.pack("<Q", len(data)) + data)

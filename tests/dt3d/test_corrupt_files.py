@@ -1,4 +1,4 @@
-"""Damaged files of every format: the right points or one line that names the file; nothing printed, no hang."""
+"""Damaged files of every format: the right points, or one line that names the file; nothing printed."""
 
 from itertools import islice
 from zlib import crc32
