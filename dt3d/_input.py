@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._errors import DegenerateInputError
+from ._exact_conversion import to_float64 as to_float64
 
 # Indices of faces (four a tetrahedron, some seven tetrahedra a site) are int32.
 MOST_SITES = 2**25
