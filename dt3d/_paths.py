@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar
 
 from ._mesh import INSTALL_VIEW
+
+INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
 
 F = TypeVar("F", bound=Callable)
 
@@ -44,3 +47,12 @@ def import_meshio() -> Any:
         msg = f"this needs meshio, which cannot be loaded ({error}); {INSTALL_VIEW}"
         raise ImportError(msg) from error
     return meshio
+
+
+def import_for_format(module: str) -> Any:
+    """A module that a format needs, or an ImportError that says how to install it."""
+    try:
+        return import_module(module)
+    except ImportError as error:
+        msg = f"this file needs the package {module.partition('.')[0]} ({error}); {INSTALL_FORMATS}"
+        raise ImportError(msg) from error

@@ -1,18 +1,23 @@
-"""Reading points: one reader for each kind of file."""
+"""Reading points: the formats, and what all of them have in common."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
-from ._mesh import import_pyvista
-from ._paths import by_extension, check_file, import_meshio
-from ._point_text import read_columns, read_obj, read_pdb, read_xyz
+from ._columns import as_float64
+from ._compressed import inner, unpacked
+from ._paths import by_extension, check_file
+from ._point_binary import BINARY_READERS
+from ._point_text import TEXT_READERS
+from ._reading import guarded
+
+READERS = {**TEXT_READERS, **BINARY_READERS}
 
 
-def read_points(path: str | Path) -> np.ndarray:
+def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.ndarray:
     """The points of a file.
 
     ===================== ====================================================================================
@@ -25,76 +30,59 @@ def read_points(path: str | Path) -> np.ndarray:
     .obj                  the vertices, in double precision
     .ply .off             the vertices, in the file's precision (needs meshio)
     .vtk .vtu .vtp .stl   the points (needs PyVista)
+    .gz after any         the same, packed by gzip
     ===================== ====================================================================================
 
     The order of the file is kept, and so are duplicates and values that are not finite; the triangulation
     deals with both.
 
+    Parameters
+    ----------
+    path : str or Path
+    dimension : 2, 3 or None
+        3 asks for three coordinates. 2 asks for two, and takes x and y of a file that has three. None takes
+        two or three, as the file has them.
+
     Returns
     -------
-    float64 (n, 3)
+    float64 (n, 3) or (n, 2)
 
     Raises
     ------
     OSError
         If the file is missing or cannot be read.
     ValueError
-        For an unknown extension, or content that is not points in three dimensions.
+        For an unknown extension, or content that is not points of this dimension, or is damaged. One line
+        that names the file, whatever library found it.
     ImportError
         If the package that reads this kind of file is not installed.
     """
+    if dimension not in (2, 3, None):
+        msg = f"dimension must be 2, 3 or None, got {dimension!r}"
+        raise ValueError(msg)
     path = Path(path)
-    reader = by_extension(path, READERS, "read points from")
-    points = np.asarray(reader(check_file(path)))
-    if points.ndim != 2 or points.shape[1] != 3:
-        msg = f"{path}: expected an array of shape (n, 3), found {points.shape}"
+    reader = by_extension(inner(path), READERS, "read points from")
+    check_file(path)
+
+    def points_of(path: Path) -> np.ndarray:
+        with unpacked(path) as plain:
+            found = guarded(reader, plain, path)
+        return _points(path, found, dimension)
+
+    return guarded(points_of, path)
+
+
+def _points(path: Path, found: np.ndarray, dimension: int | None) -> np.ndarray:
+    """The array that a reader found as float64 (n, dimension), or an error that names the file."""
+    found = np.asarray(found)
+    wanted = "(n, 2) or (n, 3)" if dimension is None else f"(n, {dimension})"
+    columns = {2: (2, 3), 3: (3,), None: (2, 3)}[dimension]
+    if found.ndim != 2 or found.shape[1] not in columns:
+        msg = f"{path}: expected an array of shape {wanted}, found {found.shape}"
+        if found.ndim == 2 and found.shape[0] in columns:
+            msg += "; transpose it (array.T) if its columns are the points"
+        elif found.ndim == 2 and found.shape[1] == 2:
+            msg += "; points in the plane are read with dimension=2, for dt3d.threaded2d"
         raise ValueError(msg)
-    if points.dtype.kind not in "iuf":
-        msg = f"{path}: expected real numbers, found {points.dtype}"
-        raise ValueError(msg)
-    return np.ascontiguousarray(points, np.float64)
-
-
-def _read_npy(path: Path) -> np.ndarray:
-    try:
-        loaded = np.load(path, allow_pickle=False)
-    except (ValueError, EOFError) as error:
-        msg = f"{path} is not a NumPy array file: {error}"
-        raise ValueError(msg) from None
-    if isinstance(loaded, np.ndarray):
-        return loaded
-    with loaded:
-        names = loaded.files
-        if "points" not in names and len(names) != 1:
-            msg = f"{path}: expected an array 'points' or a single array, found {', '.join(names) or 'none'}"
-            raise ValueError(msg)
-        return loaded["points" if "points" in names else names[0]]
-
-
-def _read_meshio(path: Path) -> np.ndarray:
-    # the readers themselves: meshio.read ends the process when it cannot read a file
-    reader = getattr(import_meshio(), path.suffix.lower()[1:]).read
-    try:
-        return reader(path).points
-    except Exception as error:
-        msg = f"{path} could not be read by meshio: {type(error).__name__}: {error}"
-        raise ValueError(msg) from error
-
-
-def _read_pyvista(path: Path) -> np.ndarray:
-    mesh = import_pyvista().read(path)
-    if not getattr(mesh, "n_points", 0):
-        msg = f"{path} holds no points that VTK can read"
-        raise ValueError(msg)
-    return np.asarray(mesh.points)
-
-
-READERS: dict[str, Callable[[Path], np.ndarray]] = {
-    **dict.fromkeys([".npy", ".npz"], _read_npy),
-    **dict.fromkeys([".csv", ".tsv", ".txt"], read_columns),
-    ".xyz": read_xyz,
-    ".pdb": read_pdb,
-    ".obj": read_obj,
-    **dict.fromkeys([".ply", ".off"], _read_meshio),
-    **dict.fromkeys([".vtk", ".vtu", ".vtp", ".stl"], _read_pyvista),
-}
+    found = found[:, : found.shape[1] if dimension is None else dimension]
+    return np.ascontiguousarray(as_float64(found, str(path)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -152,3 +153,12 @@ def _numbers(path: Path, rows: list[str], delimiter: str | None, columns: list[i
         # NumPy's sentence names the row and the column
         msg = f"{path}: {str(error).partition(';')[0].rstrip('.')}"
         raise ValueError(msg) from None
+
+
+TEXT_READERS: dict[str, Callable[[Path], np.ndarray]] = {
+    **dict.fromkeys([".csv", ".tsv", ".txt"], read_columns),
+    ".xyz": read_xyz,
+    ".pdb": read_pdb,
+    ".obj": read_obj,
+}
+"""A reader for each extension: takes a Path, gives an array of numbers (n, k)."""

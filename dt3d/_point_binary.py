@@ -1,0 +1,39 @@
+"""The readers of points in formats that are not columns of text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from ._numpy_files import read_npy, read_npz
+from ._paths import import_meshio
+from ._stl_files import read_stl
+from ._vtk_legacy import read_legacy
+from ._vtk_xml import read_xml
+
+
+def _read_meshio(path: Path) -> np.ndarray:
+    # the readers themselves: meshio.read ends the process when it cannot read a file
+    reader = getattr(import_meshio(), path.suffix.lower()[1:]).read
+    try:
+        return reader(path).points
+    except Exception as error:
+        msg = f"{path} could not be read by meshio: {type(error).__name__}: {error}"
+        raise ValueError(msg) from error
+
+
+def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path], np.ndarray]:
+    return lambda path: read(path)["points"]
+
+
+BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
+    ".npy": read_npy,
+    ".npz": read_npz,
+    **dict.fromkeys([".ply", ".off"], _read_meshio),
+    ".vtk": _points_of(read_legacy),
+    **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
+    ".stl": read_stl,
+}
+"""A reader for each extension: takes a Path, gives an array of numbers (n, k)."""
