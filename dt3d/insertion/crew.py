@@ -39,7 +39,7 @@ STRETCH = 2048  # sites that a thread inserts before it looks whether to go on; 
 LEAST_PIECE = 1500  # sites of a round that are worth a thread
 PASSES = 2  # with threads, over what others deferred; one thread does the rest
 PIECE = 1 << 15  # rows of an array that are worth a task
-# doublings of the memory for one site. Its star has fewer tetrahedra than twice the number of sites, and there
+# doublings of the memory for one site, whose star has fewer tetrahedra than twice the number of sites; there
 # is memory for as many from the beginning
 MOST_GROWTHS = 3
 MARGIN = 8  # facets that have room in the scratch memory, but are not used
