@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from ._input import check_points
 from ._mesh import hull_to_pyvista, import_pyvista, to_pyvista, volumes
+from ._mesh_input import check_simplices
 from ._paths import by_extension, check_file, check_folder, import_meshio
 
 
@@ -81,7 +83,7 @@ def read_mesh(path: str | Path) -> Mesh:
     OSError
         If the file is missing or cannot be read.
     ValueError
-        If it holds no tetrahedra.
+        If it holds no tetrahedra, or points or indices that cannot be used.
     ImportError
         If PyVista is not installed and the file is not an .npz.
     """
@@ -96,7 +98,13 @@ def read_mesh(path: str | Path) -> Mesh:
         points, simplices, iteration = _read_grid(path)
     if iteration is None:
         iteration = np.ones(len(simplices))
-    return Mesh(np.asarray(points, float), np.asarray(simplices, np.int32), np.asarray(iteration, np.int32))
+    try:
+        points = check_points(points)
+        simplices = check_simplices(simplices, len(points), 4).astype(np.int32)
+    except ValueError as error:
+        msg = f"{path}: {error}"
+        raise ValueError(msg) from None
+    return Mesh(points, simplices, np.asarray(iteration, np.int32))
 
 
 def _read_grid(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:

@@ -194,7 +194,7 @@ def verify(file: Path) -> None:
     Parameters
     ----------
     file
-        A mesh of tetrahedra, positively oriented: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+        A mesh of tetrahedra of either orientation: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
     """
     from .files import read_mesh
     from .verification import verify as check

@@ -279,6 +279,7 @@ class Delaunay:
             neighbors=self.neighbors,
             duplicates=self.duplicates,
             perturbed=self._exact,
+            oriented=True,
         )
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:

@@ -177,7 +177,14 @@ class Delaunay:
         fails."""
         from .verification import verify
 
-        return verify(self.points, self.triangles, self.neighbors, self.duplicates)
+        return verify(
+            self.points,
+            self.triangles,
+            neighbors=self.neighbors,
+            duplicates=self.duplicates,
+            perturbed=True,
+            oriented=True,
+        )
 
     def to_pyvista(self) -> pyvista.PolyData:
         """The triangles as a PyVista surface with cell data "thread".
