@@ -10,6 +10,8 @@ from ._mesh import INSTALL_VIEW
 
 F = TypeVar("F", bound=Callable)
 
+INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
+
 
 def check_file(path: Path) -> Path:
     """The path, if there is such a file; otherwise a FileNotFoundError."""
@@ -44,3 +46,13 @@ def import_meshio() -> Any:
         msg = f"this needs meshio, which cannot be loaded ({error}); {INSTALL_VIEW}"
         raise ImportError(msg) from error
     return meshio
+
+
+def import_gemmi() -> Any:
+    """Gemmi, or an ImportError that says how to install it."""
+    try:
+        import gemmi
+    except ImportError as error:
+        msg = f"this needs gemmi, which cannot be loaded ({error}); {INSTALL_FORMATS}"
+        raise ImportError(msg) from error
+    return gemmi

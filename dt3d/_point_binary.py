@@ -47,7 +47,7 @@ def _read_pyvista(path: Path) -> np.ndarray:
 
 BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
     **dict.fromkeys([".npy", ".npz"], _read_npy),
-    **dict.fromkeys([".ply", ".off"], _read_meshio),
+    **dict.fromkeys([".ply"], _read_meshio),
     **dict.fromkeys([".vtk", ".vtu", ".vtp", ".stl"], _read_pyvista),
 }
 """A reader for each extension: takes a Path, gives an array of numbers (n, k)."""
