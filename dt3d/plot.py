@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._mesh import INSTALL_VIEW
-from ._paths import check_folder
+from ._output import save_figure
+from ._paths import check_writable
 from ._topology import OUTWARD
 
 if TYPE_CHECKING:
@@ -81,8 +82,8 @@ def draw(
     ------
     ValueError
         For another extension.
-    FileNotFoundError
-        If the folder does not exist.
+    OSError
+        If the file cannot be written; an older one is then as it was.
     ImportError
         If matplotlib is not installed.
     """
@@ -101,7 +102,7 @@ def draw(
     if last > 1:
         axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
         _add_scale(mpl, figure, axes, last, size)
-    figure.savefig(path)
+    save_figure(figure, path)
 
 
 def _add_scale(mpl: Any, figure: Any, axes: Any, last: int, size: float) -> None:
@@ -175,12 +176,13 @@ def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) ->
 
 
 def check_picture_path(path: str | Path) -> Path:
-    """The path, if a picture can be written there; a ValueError or FileNotFoundError if not."""
+    """The path, if a picture can be written there; a ValueError or OSError if not."""
     path = Path(path)
     if path.suffix.lower() not in FORMATS:
         msg = f"cannot draw {path}: unknown extension {path.suffix!r}; known are {', '.join(FORMATS)}"
         raise ValueError(msg)
-    return check_folder(path)
+    check_writable(path)
+    return path
 
 
 def _palette(mpl: Any, last: int) -> np.ndarray:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ._entry import Entry, Row
 from ._model import Model
+from ._writing import written_aside
 
 KEYS = ("phase", "operation", "primitive")
 
@@ -49,7 +50,7 @@ def add_up(key: Sequence[str], entries: list[Entry], model: Model | None, proces
 def write_csv(path: Path, entries: Iterable[Entry], model: Model | None, processors: int) -> None:
     """One line a step: the attributes of `Entry`, and predicted seconds where there is a model."""
     names = [f.name for f in fields(Entry)]
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with written_aside(path) as aside, aside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow([*names, *(["seconds"] if model else [])])
         for e in entries:

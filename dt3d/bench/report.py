@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import platform
 from collections.abc import Sequence
@@ -11,8 +10,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rich.markup import escape
 from rich.table import Table
 
+from .. import _output as output
 from .rounds import Measured
 
 if TYPE_CHECKING:
@@ -25,9 +26,15 @@ MARKERS = "osD^vP*X"
 def publish(measured: Sequence[Measured], out: Path, console: Console) -> None:
     """Print the table, and write ``bench.csv`` and ``bench.png`` to the folder ``out``."""
     console.print(table(measured))
-    write_csv(measured, out / f"{NAME}.csv")
-    draw(measured, out / f"{NAME}.png")
-    console.print(f"wrote {out / NAME}.csv and {out / NAME}.png", markup=False)
+    csv, png = written(out)
+    write_csv(measured, csv)
+    draw(measured, png)
+    console.print(f"wrote {csv} and {png}", markup=False)
+
+
+def written(out: Path) -> tuple[Path, Path]:
+    """The files that `publish` writes into a folder: the table and the picture."""
+    return out / f"{NAME}.csv", out / f"{NAME}.png"
 
 
 def machine() -> str:
@@ -76,10 +83,10 @@ def table(measured: Sequence[Measured]) -> Table:
 
 
 def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
-    names = [row.set_name, f"{row.sites:,}", row.label]
+    names = [escape(row.set_name), f"{row.sites:,}", row.label]
     seconds, times = row.seconds, ratio(row, rows)
     if seconds is None:
-        return [*names, row.ended, "", "", "", "", "", "0"]
+        return [*names, escape(row.ended), "", "", "", "", "", "0"]
     return [
         *names,
         f"{seconds:.3g}" if seconds < 100 else f"{seconds:.0f}",
@@ -88,24 +95,21 @@ def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
         f"{1e-6 * row.tetrahedra / seconds:.2f}",
         "" if row.memory is None else f"{row.memory / row.sites:,.0f}",
         "" if row.verified is None else "yes" if row.verified else "NO",
-        f"{len(row.runs)}" + (f", {row.ended}" if row.ended else ""),
+        f"{len(row.runs)}" + (f", {escape(row.ended)}" if row.ended else ""),
     ]
 
 
 def write_csv(measured: Sequence[Measured], path: Path) -> None:
     """A line for each library and set; several runs are separated by spaces."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(
-            ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
-             "verified", "runs", "ended"]
-        )  # fmt: skip
-        for rows in by_set(measured):
-            for row in rows:
-                writer.writerow(
-                    [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
-                     row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
-                )  # fmt: skip
+    names = ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
+             "verified", "runs", "ended"]  # fmt: skip
+    lines = [
+        [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
+         row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
+        for rows in by_set(measured)
+        for row in rows
+    ]  # fmt: skip
+    output.write_csv(path, names, lines)
 
 
 def draw(measured: Sequence[Measured], path: Path) -> None:
@@ -129,9 +133,11 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
         axes.plot(*zip(*points, strict=True) if points else ([], []), marker, label=library)
     axes.set_yscale("log")
     axes.set_ylabel("microseconds a site")
-    axes.set_xticks(range(len(sets)), [f"{rows[0].set_name}\n{rows[0].sites:,}" for rows in sets])
+    # a dollar in the name of a file begins no formula
+    names = [f"{rows[0].set_name}\n{rows[0].sites:,}".replace("$", r"\$") for rows in sets]
+    axes.set_xticks(range(len(sets)), names)
     axes.set_xlim(-0.5, len(sets) - 0.5)
     axes.grid(axis="y", alpha=0.3)
     axes.legend()
     axes.set_title(machine(), fontsize="small")
-    figure.savefig(path, dpi=150)
+    output.save_figure(figure, path, dpi=150)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import scanvec as sv
 
+from .._output import save_figure, write_csv
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-
-def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(header)
-        writer.writerows(rows)
+__all__ = ["new_table", "off", "panels", "print_model", "save_figure", "write_csv", "wrote"]
 
 
 def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table:

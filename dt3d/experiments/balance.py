@@ -20,7 +20,7 @@ import scanvec.plot
 from .._stats import Statistics
 from ..delaunay import Delaunay
 from . import sets
-from ._output import new_table, panels, write_csv, wrote
+from ._output import new_table, panels, save_figure, write_csv, wrote
 from .paper import PROCESSORS
 from .runs import MAIN_LOOP, SEED, cm5
 
@@ -174,6 +174,6 @@ def balance(
         "unevenly, the search takes a tree of boxes instead."
     )
     write_csv(out / "balance.csv", ["sites", "scheme", "busiest", "lock_step", "sites_an_expansion"], lines)
-    figure.savefig(out / "balance.png", dpi=120)
+    save_figure(figure, out / "balance.png", dpi=120)
     wrote(console, out, "balance")
     return result

@@ -18,7 +18,7 @@ from ..extrapolation import normalise
 from ..extrapolation.points import Point
 from ..extrapolation.signed_distance import frame, signed_distance
 from . import calibration
-from ._output import new_table, panels, print_model, write_csv, wrote
+from ._output import new_table, panels, print_model, save_figure, write_csv, wrote
 from .paper import BREAK_EVEN, PROCESSORS, RANDOM
 from .runs import MAIN_LOOP, SEED, cm5, points_of
 
@@ -182,4 +182,4 @@ def _draw(lines: list[list[Any]], crossing: float | None, path: Path) -> None:
         ax.axvline(crossing, color="0.4", linestyle="--", label="break-even, model")
     ax.set(xlabel="sites", ylabel="seconds")
     ax.legend(fontsize=8)
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import new_table, panels, write_csv, wrote
+from ._output import new_table, panels, save_figure, write_csv, wrote
 from .paper import MOST_BY_ITERATION, RANDOM
 from .runs import SEED, Measured, measure, points_of
 
@@ -66,7 +66,7 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
         ax.semilogy(*zip(*some, strict=True), "o-", label=name)
     ax.set(xlabel="iteration", ylabel="tetrahedra found")
     ax.legend(fontsize=8)
-    figure.savefig(out / "figure3.png", dpi=120)
+    save_figure(figure, out / "figure3.png", dpi=120)
     wrote(console, out, "figure3")
     return found
 

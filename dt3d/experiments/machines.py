@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import new_table, panels, print_model, write_csv, wrote
+from ._output import new_table, panels, print_model, save_figure, write_csv, wrote
 from .runs import SEED, measure, points_of
 
 if TYPE_CHECKING:
@@ -80,4 +80,4 @@ def _draw(seconds: dict[str, dict[int, float]], path: Path) -> None:
     axes[1].set(xlabel="processors", ylabel=f"speed-up over {p[0]} processors")
     for ax in axes:
         ax.legend(fontsize=8)
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

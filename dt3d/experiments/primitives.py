@@ -15,7 +15,7 @@ import numpy as np
 
 import scanvec as sv
 
-from ._output import new_table, panels, write_csv, wrote
+from ._output import new_table, panels, save_figure, write_csv, wrote
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -216,4 +216,4 @@ def _draw(found: list[Measurement], path: Path) -> None:
         ax.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
         ax.minorticks_off()
         ax.legend(fontsize=8, loc="upper right")
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

@@ -12,7 +12,7 @@ import numpy as np
 import scanvec as sv
 
 from . import calibration
-from ._output import new_table, off, panels, print_model, write_csv, wrote
+from ._output import new_table, off, panels, print_model, save_figure, write_csv, wrote
 from .paper import PROCESSORS, RANDOM, TABLE1, PaperRow
 from .runs import SEED, Measured, cm5, measure, points_of
 
@@ -201,4 +201,4 @@ def _draw(measured: list[Row], seconds: dict[str, float], path: Path) -> None:
         ax.minorticks_off()
     axes[0].legend()
     axes[3].legend()
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import scanvec as sv
 
 from . import calibration
-from ._output import new_table, off, panels, print_model, write_csv, wrote
+from ._output import new_table, off, panels, print_model, save_figure, write_csv, wrote
 from .paper import PROCESSORS, RANDOM, TABLE2
 from .runs import SEED, cm5, measure, paper_row, points_of
 
@@ -226,4 +226,4 @@ def _draw(cells: list[Cell], path: Path) -> None:
     if cells:
         axes[0].legend()
         axes[1].legend()
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

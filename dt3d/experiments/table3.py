@@ -16,7 +16,7 @@ from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
 from ..extrapolation import normalise, perturb, triangulate
 from ..extrapolation.perturbation import MAGNITUDE
-from ._output import new_table, panels, write_csv, wrote
+from ._output import new_table, panels, save_figure, write_csv, wrote
 from .paper import TABLE3, TOO_MANY
 from .runs import SEED, points_of
 
@@ -157,4 +157,4 @@ def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcom
     ax.set_xticks(range(len(outcomes)), list(outcomes))
     ax.set(ylabel="inconsistencies (hatched: too many, given up)", ylim=(0, top))
     ax.legend(fontsize=8, loc="upper left")
-    figure.savefig(path, dpi=120)
+    save_figure(figure, path, dpi=120)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from ..._output import save_figure, write_csv
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -39,16 +40,13 @@ def publish(
         table.add_row(*(_text(row[c]) for c in columns))
     console.print(table)
     console.print(note)
-    with (out / f"{name}.csv").open("w", newline="") as file:
-        writer = csv.DictWriter(file, columns)
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(out / f"{name}.csv", columns, [[row[c] for c in columns] for row in rows])
     figure = Figure(figsize=(7, 4.5), layout="constrained")
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     draw(axes)
-    figure.savefig(out / f"{name}.png", dpi=120)
-    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}")
+    save_figure(figure, out / f"{name}.png", dpi=120)
+    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}", markup=False)
 
 
 def _text(value: Any) -> str:

@@ -1,0 +1,142 @@
+"""Writing triangulations. Every file is written aside and takes its name when it is whole.
+
+VTK does not write to the disk itself: where that is full its writers end the process (XML), say nothing (PLY)
+or print on the terminal. They write into memory, and Python writes that to the disk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._mesh import to_pyvista, volumes
+from ._paths import by_extension, check_writable, import_meshio, written_aside
+
+
+def write_mesh(tri: Any, path: str | Path) -> None:
+    """Write a triangulation.
+
+    ============ =============================================================================================
+    .vtu .vtk    the tetrahedra, with cell data "iteration" and "volume" (needs PyVista)
+    .npz         arrays points, simplices, neighbors, iteration and volume
+    .msh .mesh   the tetrahedra for Gmsh and Medit; Medit's reference is the iteration (needs meshio)
+    .ply .stl    the surface of the convex hull; .stl in single precision (needs meshio)
+    ============ =============================================================================================
+
+    Parameters
+    ----------
+    tri : Delaunay
+    path : str or Path
+        A file that exists is replaced, when the new one is whole; until then, and if it cannot be
+        written, it is as it was.
+
+    Raises
+    ------
+    OSError, ValueError, ImportError
+        As `check_mesh_path` says, if the file cannot be written, and if .stl cannot hold the coordinates.
+    """
+    path = check_mesh_path(path)
+    with written_aside(path) as aside:
+        WRITERS[path.suffix.lower()](tri, aside)
+
+
+def check_mesh_path(path: str | Path) -> Path:
+    """The path, if a mesh can be written there; to be asked before a long computation.
+
+    Raises
+    ------
+    ValueError
+        For an extension that `write_mesh` does not know.
+    OSError
+        If the folder does not exist or may not be written, or the file may not be replaced.
+    """
+    path = Path(path)
+    by_extension(path, WRITERS, "write a mesh to")
+    check_writable(path)
+    return path
+
+
+def _write_npz(tri: Any, path: Path) -> None:
+    arrays = {name: getattr(tri, name) for name in ("points", "simplices", "neighbors", "iteration")}
+    with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
+        np.savez_compressed(file, volume=volumes(tri.points, tri.simplices), **arrays)
+
+
+def _write_vtu(tri: Any, path: Path) -> None:
+    grid = to_pyvista(tri)  # says what to install where VTK is missing
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToZLib()
+    path.write_bytes(_in_memory(writer, grid).GetOutputString().encode())
+
+
+def _write_vtk(tri: Any, path: Path) -> None:
+    grid = to_pyvista(tri)  # says what to install where VTK is missing
+    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
+
+    writer = vtkUnstructuredGridWriter()
+    writer.SetFileTypeToBinary()
+    path.write_bytes(_in_memory(writer, grid).GetOutputStdString())
+
+
+def _in_memory(writer: Any, grid: Any) -> Any:
+    writer.SetInputData(grid)
+    writer.WriteToOutputStringOn()
+    if not writer.Write():
+        msg = f"{type(writer).__name__} could not make the file (error {writer.GetErrorCode()})"
+        raise OSError(msg)
+    return writer
+
+
+def _write_gmsh(tri: Any, path: Path) -> None:
+    meshio = import_meshio()
+    meshio.gmsh.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}), "4.1")
+
+
+def _write_medit(tri: Any, path: Path) -> None:
+    meshio = import_meshio()
+    reference = {"medit:ref": [np.asarray(tri.iteration)]}
+    meshio.medit.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}, cell_data=reference))
+
+
+def _write_ply(tri: Any, path: Path) -> None:
+    meshio = import_meshio()
+    meshio.ply.write(path, meshio.Mesh(*_hull(tri)), binary=True)
+
+
+def _write_stl(tri: Any, path: Path) -> None:
+    meshio = import_meshio()
+    points, cells = _hull(tri)
+    greatest = np.abs(points).max(initial=0.0)
+    if greatest > np.finfo(np.float32).max:
+        msg = f"a coordinate of {greatest:g} is beyond the single precision of .stl; write .ply"
+        raise ValueError(msg)
+    # of the set scaled to 1: squares of great and of small coordinates are not numbers of this precision
+    a, b, c = (points / (greatest or 1.0))[cells["triangle"]].swapaxes(0, 1)
+    normals = np.cross(b - a, c - a)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    mesh = meshio.Mesh(points, cells, cell_data={"facet_normals": [normals]})
+    meshio.stl.write(path, mesh, binary=True)
+
+
+def _hull(tri: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The convex hull as a closed surface of its own points, oriented outwards."""
+    corners, faces = np.unique(tri.convex_hull, return_inverse=True)
+    return np.asarray(tri.points, np.float64)[corners], {"triangle": faces.reshape(-1, 3).astype(np.int32)}
+
+
+WRITERS: dict[str, Callable[[Any, Path], None]] = {
+    ".npz": _write_npz,
+    ".vtu": _write_vtu,
+    ".vtk": _write_vtk,
+    ".msh": _write_gmsh,
+    ".mesh": _write_medit,
+    ".ply": _write_ply,
+    ".stl": _write_stl,
+}
