@@ -17,6 +17,7 @@ import numpy as np
 
 from ._compiling import announce_compilation
 from ._input import check_points
+from ._memory import room_for_threads
 from ._topology import OUTSIDE
 from .insertion.order import along_curve
 from .predicates import work_array
@@ -142,7 +143,8 @@ class Locator:
         if threads == 1:
             work(0)
             return
-        with ThreadPoolExecutor(threads) as pool:
+        fewer = f"locate fewer than {2 * PIECE} points at a time"
+        with room_for_threads(fewer), ThreadPoolExecutor(threads) as pool:
             list(pool.map(work, range(threads)))
 
 
