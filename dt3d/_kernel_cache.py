@@ -38,6 +38,7 @@ def cached_njit(function: Callable | None = None, **options: Any) -> Any:
         return partial(cached_njit, **options)
     import numba
 
+    _forks_wait()
     dispatcher = numba.njit(**options)(function)
     if not hasattr(dispatcher, "enable_caching"):  # NUMBA_DISABLE_JIT leaves the function as it is
         return dispatcher
@@ -69,6 +70,15 @@ class Kept:
                 "what was compiled could not be kept in %s (%s): other processes compile it again; %s",
                 folder, error.strerror, CURE,
             )  # fmt: skip
+
+
+@cache
+def _forks_wait() -> None:
+    """Let forks wait until no other thread compiles: its lock would stay locked in the child, for ever."""
+    from numba.core.compiler_lock import global_compiler_lock as lock
+
+    if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
+        os.register_at_fork(before=lock.acquire, after_in_parent=lock.release, after_in_child=lock.release)
 
 
 @cache

@@ -152,6 +152,16 @@ class Locator:
 _ONE_AT_A_TIME = threading.Lock()
 
 
+def _in_child() -> None:
+    """After a fork whoever had the lock is not there to give it back."""
+    global _ONE_AT_A_TIME
+    _ONE_AT_A_TIME = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
+    os.register_at_fork(after_in_child=_in_child)
+
+
 def _along_curve(points: np.ndarray) -> np.ndarray:
     """The rows of points (n, 2) or (n, 3) along a space-filling curve."""
     if len(points) < 2:
