@@ -1,8 +1,10 @@
-"""How much memory there is, for those who must know before they take it."""
+"""How much memory there is, for those who must know first, and errors that say what was needed."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 UNKNOWN = 1 << 40
@@ -32,3 +34,27 @@ def available_memory() -> int:
 def gigabytes(size: int) -> str:
     """A number of bytes for a message: ``2.5 GB``."""
     return f"{size / 1e9:.1f} GB" if size >= 1e8 else f"{size / 1e6:.1f} MB"
+
+
+@contextmanager
+def room_for_threads(cure: str = "ask for fewer with threads=1") -> Iterator[None]:
+    """Threads are started within; where the system refuses one, that is a MemoryError with a sentence.
+
+    ``cure``: what the caller of the library can do.
+
+    Raises
+    ------
+    MemoryError
+        In place of the RuntimeError by which Python says that no thread could be started.
+    """
+    try:
+        yield
+    except RuntimeError as error:
+        if "can't start new thread" not in str(error):
+            raise
+        msg = (
+            f"the system refused another thread: there is no room for its stack in this process's address "
+            f"space (ulimit -v), or there are too many (ulimit -u, a container's pids limit); {cure}, or "
+            f"raise the limit"
+        )
+        raise MemoryError(msg) from error

@@ -17,6 +17,7 @@ import numpy as np
 
 from ._compiling import announce_compilation
 from ._input import check_points
+from ._memory import room_for_threads
 from ._topology import OUTSIDE
 from .insertion.order import along_curve
 from .predicates import work_array
@@ -142,12 +143,23 @@ class Locator:
         if threads == 1:
             work(0)
             return
-        with ThreadPoolExecutor(threads) as pool:
+        fewer = f"locate fewer than {2 * PIECE} points at a time"
+        with room_for_threads(fewer), ThreadPoolExecutor(threads) as pool:
             list(pool.map(work, range(threads)))
 
 
 # the rows for points at hand have one user
 _ONE_AT_A_TIME = threading.Lock()
+
+
+def _in_child() -> None:
+    """After a fork whoever had the lock is not there to give it back."""
+    global _ONE_AT_A_TIME
+    _ONE_AT_A_TIME = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
+    os.register_at_fork(after_in_child=_in_child)
 
 
 def _along_curve(points: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._errors import DegenerateInputError
+from .._memory import room_for_threads
 from .compaction import count_finite, number_finite, write_finite
 from .crew import LEAST_PIECE, Crew, available_cores
 from .first import first_tetrahedron
@@ -54,6 +55,8 @@ def triangulate(
     ------
     DegenerateInputError
         If the sites span no volume.
+    MemoryError
+        If the system has no room for the threads or the tetrahedra.
     """
     most = max(1, len(sites) // (8 * LEAST_PIECE)) if threads is None else threads
     threads = min(most, available_cores())
@@ -67,7 +70,7 @@ def triangulate(
             report(n - inserted, slots)
 
     seconds = {}
-    with Crew(threads, each_stretch) as crew:
+    with room_for_threads(), Crew(threads, each_stretch) as crew:
         begun = time.perf_counter()
         original, rows, duplicates = _in_order(sites, crew)
         n = len(original)

@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import scanvec as sv
+from scanvec._running import computing
 
 from ..._errors import InconsistencyError
 from ...predicates.integers import limbs_of
@@ -265,7 +266,7 @@ def triangulate(
     machine: sv.Machine, sites: np.ndarray, report: Callable[[int, int, int], None] | None = None
 ) -> Outcome:
     """Triangulate distinct sites (n, 3) in lexicographic order, exactly."""
-    with jax.enable_x64(True):
+    with computing():
         run = Triangulation(machine, sites)
         run.run(report)
         return run.result()
