@@ -16,6 +16,7 @@ import numba
 import numpy as np
 
 from ._compiling import announce_compilation
+from ._errors import InternalError
 from ._input import check_points
 from ._memory import room_for_threads
 from ._topology import OUTSIDE
@@ -25,7 +26,7 @@ from .predicates.filtered import orient3d
 from .predicates.filtered2d import orient2d
 
 PIECE = 4096  # points that a thread takes at a time
-LOST = -2  # a walk that went on too long: not in a triangulation with inconsistencies only
+LOST = -2  # a walk of more steps than there are simplices, which no Delaunay triangulation has
 
 
 @numba.njit(cache=True)
@@ -42,7 +43,10 @@ def _beyond(rows, simplices, t, k, q, w):
 
 @numba.njit(cache=True)
 def _walk(rows, simplices, neighbors, t, q, w):
-    """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended."""
+    """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended.
+
+    Each step goes to a simplex of whose sphere, perturbed, q has a lesser power, so none is visited twice.
+    """
     came, facets = OUTSIDE, simplices.shape[1]
     for step in range(len(simplices)):
         ahead = t
@@ -74,12 +78,16 @@ def _search(rows, simplices, q, w):
 
 @numba.njit(nogil=True, cache=True)
 def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
-    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended."""
+    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended, or
+    `LOST` where the first one was."""
     for i in order[begin:end]:
         rows[q] = points[i]
         out[i], t = _walk(rows, simplices, neighbors, t, q, w)
-        if out[i] < 0 and not convex:
-            out[i] = _search(rows, simplices, q, w)
+        if out[i] < 0:
+            if not convex:
+                out[i] = _search(rows, simplices, q, w)
+            elif out[i] == LOST:
+                return LOST
     return t
 
 
@@ -115,6 +123,8 @@ class Locator:
         ------
         ValueError
             If the points are not finite, real and of shape (..., d).
+        InternalError
+            If a walk does not end.
         """
         dimension = len(self.low)
         given = xi if np.ma.isMaskedArray(xi) else np.asarray(xi)
@@ -135,10 +145,16 @@ class Locator:
 
         def work(k: int) -> None:
             row = len(self.rows) - 1 - k
-            self.last[k] = _find(
+            last = _find(
                 self.rows, self.simplices, self.neighbors, self.convex, row, self.last[k],
                 points, order, bounds[k], bounds[k + 1], out, self.works[k],
             )  # fmt: skip
+            if last == LOST:
+                msg = (
+                    f"a walk to a point does not end after {len(self.simplices)} steps, one for each simplex"
+                )
+                raise InternalError(msg)
+            self.last[k] = last
 
         if threads == 1:
             work(0)
