@@ -8,51 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-
-def read_columns(path: Path) -> np.ndarray:
-    """Columns of numbers, with or without a header.
-
-    The first line tells the delimiter: semicolons, else commas, else white space. Between semicolons a
-    decimal comma is understood. A header that names x, y and z selects these columns from any number of them;
-    otherwise there are three. Lines that start with ``#`` are comments, except that the first line may be
-    such a header.
-
-    Returns
-    -------
-    float64 (n, 3)
-
-    Raises
-    ------
-    ValueError
-        If there are no numbers, rows differ in length, or the columns are not three and none are named.
-    """
-    lines = [line for line in _text(path).splitlines() if line.strip()]
-    if not lines:
-        msg = f"{path} is empty; expected rows of x, y, z"
-        raise ValueError(msg)
-    delimiter = next((d for d in ";," if d in lines[0]), None)
-    names = _split(lines[0].lstrip("# "), delimiter)
-    rows = [line for line in lines if not line.lstrip().startswith("#")]
-    if all(_is_number(name, delimiter) for name in names):
-        names = []
-    elif rows and rows[0] is lines[0]:
-        rows = rows[1:]
-    if not rows:
-        msg = f"{path} has a header but no rows of numbers"
-        raise ValueError(msg)
-
-    columns = None
-    if names:
-        lowered = [name.lower() for name in names]
-        if all(axis in lowered for axis in "xyz"):
-            columns = [lowered.index(axis) for axis in "xyz"]
-    if columns is None and (found := len(_split(rows[0], delimiter))) != 3:
-        kind = f"columns {', '.join(names)}" if len(names) == found else f"{found} columns"
-        msg = f"{path}: found {kind}; expected three, or a header that names x, y and z"
-        raise ValueError(msg)
-    if delimiter == ";":
-        rows = [row.replace(",", ".") for row in rows]
-    return _numbers(path, rows, delimiter, columns)
+from ._text_columns import read_columns, read_leading_columns
 
 
 def read_xyz(path: Path) -> np.ndarray:
@@ -156,7 +112,8 @@ def _numbers(path: Path, rows: list[str], delimiter: str | None, columns: list[i
 
 
 TEXT_READERS: dict[str, Callable[[Path], np.ndarray]] = {
-    **dict.fromkeys([".csv", ".tsv", ".txt"], read_columns),
+    **dict.fromkeys([".csv", ".tsv", ".txt", ".dat"], read_columns),
+    ".asc": read_leading_columns,
     ".xyz": read_xyz,
     ".pdb": read_pdb,
     ".obj": read_obj,
