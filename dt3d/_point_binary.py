@@ -33,7 +33,7 @@ def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path]
 BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
     ".npy": read_npy,
     ".npz": read_npz,
-    **dict.fromkeys([".ply", ".off"], _read_meshio),
+    ".ply": _read_meshio,
     ".vtk": _points_of(read_legacy),
     **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
     ".stl": read_stl,

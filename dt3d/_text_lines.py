@@ -51,8 +51,8 @@ class Lines:
         return Lines(self.path, text, self.numbers)
 
 
-def read_lines(path: Path) -> Lines:
-    """All lines of a file, blank ones too.
+def read_text(path: Path) -> str:
+    """The text of a file, in which every line ends with LF.
 
     UTF-8, with or without a byte-order mark, and UTF-16 and UTF-32 with one. Bytes that are not UTF-8 become
     replacement characters, which may stand in comments and names, and are errors in numbers. Lines end with
@@ -76,7 +76,12 @@ def read_lines(path: Path) -> Lines:
         line = text.count("\n", 0, text.index("\0")) + 1
         msg = f"{path}, line {line}: a NUL character, which no text has; it is damaged, binary, or UTF-16"
         raise ValueError(msg)
-    lines = text.split("\n")
+    return text
+
+
+def read_lines(path: Path) -> Lines:
+    """All lines of a file, blank ones too; raises what `read_text` raises."""
+    lines = read_text(path).split("\n")
     if not lines[-1]:
         lines.pop()  # what follows the last line end
     return Lines(path, lines, range(1, len(lines) + 1))
