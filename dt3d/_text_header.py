@@ -19,6 +19,9 @@ FAMILIES = {
 HEIGHTS = {"z", "elevation", "elev", "height", "altitude", "alt"}
 """What the third axis is called beside x and y, or easting and northing."""
 
+LONGEST_NAME = 100
+"""Characters of a name that are looked at."""
+
 _UNIT = re.compile(r"\s*(\[[^]]*\]|\([^)]*\))\s*$")
 _STARTS_LIKE_A_NUMBER = re.compile(r"[-+.,]*[0-9]|[-+]?[0-9OoIl]*[.,][0-9OoIl]")
 
@@ -46,7 +49,7 @@ def is_header(cells: list[str]) -> bool:
 
 def plain_name(name: str) -> str:
     """A column's name in lower case without its unit: ``X [ m ]`` is ``x``."""
-    return _UNIT.sub("", name).strip().lower()
+    return _UNIT.sub("", name[:LONGEST_NAME]).strip().lower()
 
 
 def coordinate_columns(path: Path, names: list[str]) -> list[int] | None:

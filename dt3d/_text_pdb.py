@@ -10,6 +10,9 @@ import numpy as np
 from ._text_cells import NUMBER
 from ._text_lines import Lines, read_lines, shown
 
+LONGEST_LINE = 1000
+"""Characters; the format has 80, and a search for coordinates takes the square of a line's length."""
+
 FIELDS = [slice(30, 38), slice(38, 46), slice(46, 54)]
 """x, y and z: columns 31 to 54 (wwPDB format 3.3, section "ATOM")."""
 
@@ -59,6 +62,9 @@ def read_pdb(path: Path) -> np.ndarray:
     points = np.empty((len(atoms), 3))
     row = 0
     for k, line in enumerate(lines.text):
+        if len(line) > LONGEST_LINE:
+            msg = f"{len(line)} characters, while a record has 80"
+            raise lines.error(k, msg)
         if row < len(atoms) and k == atoms[row]:
             points[row] = _coordinates(lines, k)
             row += 1
