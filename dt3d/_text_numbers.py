@@ -116,20 +116,20 @@ def decimal_mark(rows: Lines, delimiter: str | None) -> str:
     """
     if delimiter == "," or not any("," in line for line in rows.text):
         return "."
-    if delimiter == ";":
-        return ","
     ambiguous = None
     for k, line in enumerate(rows.text):
         if "," not in line:
             continue
         for j, cell in enumerate(line.split(delimiter)):
-            cell = cell.strip()
+            cell = cell.strip(' "')
             if not THOUSANDS.fullmatch(cell):
                 if DECIMAL_COMMA.fullmatch(cell):
                     return ","
             elif "." in cell or cell.count(",") > 1:
                 msg = f"{shown(cell)} has thousands' commas; write numbers without them"
                 raise rows.error(k, msg, j + 1)
+            elif delimiter == ";":
+                return ","
             elif ambiguous is None:
                 ambiguous = k, j, cell
     if ambiguous is None:
