@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ._gmsh_files import read_gmsh_points
+from ._medit_files import read_medit
 from ._numpy_files import read_npy, read_npz
 from ._paths import import_meshio
 from ._stl_files import read_stl
@@ -31,9 +33,11 @@ def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path]
 BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
     ".npy": read_npy,
     ".npz": read_npz,
-    **dict.fromkeys([".ply"], _read_meshio),
+    ".ply": _read_meshio,
     ".vtk": _points_of(read_legacy),
     **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
     ".stl": read_stl,
+    ".msh": read_gmsh_points,
+    ".mesh": _points_of(read_medit),
 }
 """A reader for each extension: takes a Path, gives an array of numbers (n, k)."""

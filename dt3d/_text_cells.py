@@ -29,8 +29,12 @@ def split(line: str, delimiter: str | None) -> list[str]:
     """
     if '"' not in line:
         return line.split() if delimiter is None else [cell.strip() for cell in line.split(delimiter)]
-    # between white space, csv takes blanks one by one, so runs of them outside quotes become one
-    text = line.strip() if delimiter else re.sub(r'("[^"]*")|\s+', lambda run: run[1] or " ", line.strip())
+    text = line.strip()
+    if delimiter is None:
+        # csv takes blanks one by one, so runs of them outside quotes become one
+        text = re.sub(r'("[^"]*")|\s+', lambda run: run[1] or " ", text)
+    else:
+        text = re.sub(f'" +(?={delimiter})', '"', text)
     try:
         cells = next(csv.reader([text], delimiter=delimiter or " ", skipinitialspace=True, strict=True))
     except csv.Error as error:

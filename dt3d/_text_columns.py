@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ._text_cells import is_integer, is_number, split
+from ._text_cells import is_integer, is_missing, is_number, split
 from ._text_header import coordinate_columns, is_header, plain_name
 from ._text_lines import COMMENT_MARKS, Lines, content, read_lines, shown
 from ._text_numbers import decimal_mark, numbers
 
-_DECIMAL_COMMA_CELLS = re.compile(r"[-+]?[0-9]+(,[0-9]+)?([eE][-+]?[0-9]+)?")
+_COMMAS_WITHIN = re.compile(r"[-+]?[0-9]+(,[0-9]+)*(\.[0-9]*)?([eEdD][-+]?[0-9]+)?")
 
 _WANTED = "expected three, or a header that names x, y and z"
 
@@ -77,7 +77,7 @@ def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
 
     width = len(first)
     used = width
-    if not first[-1] and delimiter is not None and all(row.rstrip().endswith(delimiter) for row in rows.text):
+    if not first[-1] and not (len(names) == width and names[-1]) and _is_never_used(rows, delimiter):
         used -= 1  # a delimiter after each last cell
     if names:
         names = _fitted_names(rows, names, first, used)
@@ -96,8 +96,7 @@ def delimiter_of(line: str) -> str | None:
     if "," not in line:
         return None
     words = line.split()
-    decimal_commas = len(words) > 1 and all(map(_DECIMAL_COMMA_CELLS.fullmatch, words))
-    return None if decimal_commas else ","
+    return None if len(words) > 1 and all(map(_COMMAS_WITHIN.fullmatch, words)) else ","
 
 
 def _cells(rows: Lines, k: int, delimiter: str | None) -> list[str]:
@@ -113,6 +112,21 @@ def _is_tabbed(rows: Lines) -> bool:
     return len(tabs) == 1 or any(not cell.strip() for row in rows.text for cell in row.split("\t"))
 
 
+def _is_never_used(rows: Lines, delimiter: str | None) -> bool:
+    """Whether the last column, which has no name, is empty.
+
+    Raises
+    ------
+    ValueError
+        If it is empty in most rows but not in all: those may have a decimal comma.
+    """
+    odd = [k for k, row in enumerate(rows.text) if not row.rstrip().endswith(delimiter or "")]
+    if odd and 2 * len(odd) <= len(rows):
+        msg = f"a value behind the last column: {shown(rows.text[odd[0]])}"
+        raise rows.error(odd[0], msg)
+    return not odd
+
+
 def _without_counts(rows: Lines) -> Lines:
     """The rows behind a line with their number, or behind rbox's lines with dimension and number."""
     for ahead in (1, 2):
@@ -120,7 +134,7 @@ def _without_counts(rows: Lines) -> Lines:
             return rows
         counted = is_integer(rows.text[ahead - 1].strip()) and len(rows.text[ahead].strip()) > 1
         words = rows.text[0].split()
-        rbox = words[0] in ("2", "3") and not any(map(is_number, words[1:]))
+        rbox = words[0] in ("2", "3") and not any(map(is_number, words[1:2]))
         if counted and not is_integer(rows.text[ahead].strip()) and (ahead == 1 or rbox):
             promised = rows.text[ahead - 1].strip()
             if promised != str(len(rows) - ahead):
@@ -169,7 +183,8 @@ def _chosen_columns(
         return list(range(width))
     for j, cell in enumerate(first):
         if not is_number(cell) and not is_number(cell, ","):
-            msg = f"{shown(cell)} is not a number; lines of text before the rows must start with '#'"
+            text = "" if is_missing(cell) else "; lines of text before the rows must start with '#'"
+            msg = f"{shown(cell)} is not a number{text}"
             raise rows.error(0, msg, j + 1)
     if width > 3 and leading:
         if _counts_rows(rows, delimiter):

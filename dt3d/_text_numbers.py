@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+
 import numpy as np
 
 from ._text_cells import DECIMAL_COMMA, THOUSANDS, WHOLE, number, split
@@ -51,18 +53,31 @@ def _fast(
     """What NumPy reads of rows that are plain, or None."""
     lines = rows.text
     if any('"' in line for line in lines):
-        return None
+        if delimiter is None:
+            return None
+        try:
+            cells = list(csv.reader(lines, delimiter=delimiter, skipinitialspace=True, strict=True))
+        except csv.Error:
+            return None
+        # a quote that is not closed takes the next line with it
+        if len(cells) != len(lines) or any(len(row) != width for row in cells):
+            return None
+        lines = ["\t".join([row[j] for j in columns]) for row in cells]
+        delimiter, width = "\t", len(columns)
+        columns = list(range(width))
     if decimal == ",":
         if any("." in line for line in lines):
             return None
         lines = [line.replace(",", ".") for line in lines]
-    if delimiter is None:
-        even = len(columns) == width or all(len(line.split()) == width for line in lines)
-    else:
-        even = all(line.count(delimiter) == width - 1 for line in lines)
-    if not even:
-        return None
     usecols = columns if columns != list(range(width)) else None
+    if usecols:
+        # NumPy counts the cells of a row only where it takes all of them
+        if delimiter is None:
+            even = all(len(line.split()) == width for line in lines)
+        else:
+            even = all(line.count(delimiter) == width - 1 for line in lines)
+        if not even:
+            return None
     try:
         found = np.loadtxt(lines, delimiter=delimiter, usecols=usecols, ndmin=2, comments=None)
     except ValueError:
@@ -101,20 +116,20 @@ def decimal_mark(rows: Lines, delimiter: str | None) -> str:
     """
     if delimiter == "," or not any("," in line for line in rows.text):
         return "."
-    if delimiter == ";":
-        return ","
     ambiguous = None
     for k, line in enumerate(rows.text):
         if "," not in line:
             continue
         for j, cell in enumerate(line.split(delimiter)):
-            cell = cell.strip()
+            cell = cell.strip(' "')
             if not THOUSANDS.fullmatch(cell):
                 if DECIMAL_COMMA.fullmatch(cell):
                     return ","
             elif "." in cell or cell.count(",") > 1:
                 msg = f"{shown(cell)} has thousands' commas; write numbers without them"
                 raise rows.error(k, msg, j + 1)
+            elif delimiter == ";":
+                return ","
             elif ambiguous is None:
                 ambiguous = k, j, cell
     if ambiguous is None:

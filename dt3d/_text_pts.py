@@ -30,14 +30,15 @@ def read_pts(path: Path) -> np.ndarray:
     ValueError
         If a count and the number of points disagree, or rows are not like the first.
     """
-    lines = content(read_lines(path))
+    whole = read_lines(path)
+    lines = content(whole)
     if not len(lines):
         msg = f"{path} is empty; expected points"
         raise ValueError(msg)
     if lines.text[0].lower().strip().startswith("version"):
         return _landmarks(lines)
     if not _COUNT.fullmatch(lines.text[0].strip()):
-        return columns_of(lines, leading=True)
+        return columns_of(whole, leading=True)  # with its comments, which may name columns
     scans, at = [], 0
     while at < len(lines):
         if not _COUNT.fullmatch(lines.text[at].strip()):
