@@ -16,9 +16,12 @@ import numpy as np
 
 from . import _topology
 from ._input import exactly_scaled, first_copies
+from ._memory import require
 from .predicates import orient3d, work_array
 from .predicates.filtered import in_sphere
 from .predicates.perturbed import inside
+
+BYTES_PER_TETRAHEDRON = 450  # as measured
 
 
 @dataclass(frozen=True)
@@ -65,12 +68,15 @@ def verify(
     ------
     ValueError
         If a coordinate is not finite, or indices are out of range.
+    MemoryError
+        If the system does not have the memory.
     """
     points, simplices = np.asarray(points, np.float64), np.asarray(simplices, np.int64).reshape(-1, 4)
     if len(simplices) and not 0 <= simplices.min() <= simplices.max() < len(points):
         named = f"{simplices.min()} to {simplices.max()}"
         msg = f"simplices name sites {named}, but there are {len(points)} points"
         raise ValueError(msg)
+    require(f"verifying {len(simplices)} tetrahedra", BYTES_PER_TETRAHEDRON * len(simplices))
     sites = exactly_scaled(points)
 
     volumes = orient3d(*(sites[simplices[:, k]] for k in range(4)))

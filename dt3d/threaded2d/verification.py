@@ -14,10 +14,13 @@ import numba
 import numpy as np
 
 from .._input import exactly_scaled
+from .._memory import require
 from ..predicates import work_array
 from ..predicates.filtered2d import orient2d
 from ..verification import Verification
 from .geometry import conflicts
+
+BYTES_PER_TRIANGLE = 170  # as measured
 
 
 def verify(points: Any, triangles: Any, neighbors: Any, duplicates: Any) -> Verification:
@@ -33,6 +36,8 @@ def verify(points: Any, triangles: Any, neighbors: Any, duplicates: Any) -> Veri
     ------
     ValueError
         If triangles name sites that there are not.
+    MemoryError
+        If the system does not have the memory.
     """
     points, triangles = np.asarray(points, np.float64), np.asarray(triangles, np.int64).reshape(-1, 3)
     if len(triangles) and not 0 <= triangles.min() <= triangles.max() < len(points):
@@ -40,6 +45,7 @@ def verify(points: Any, triangles: Any, neighbors: Any, duplicates: Any) -> Veri
             f"triangles name sites {triangles.min()} to {triangles.max()}, but there are {len(points)} points"
         )
         raise ValueError(msg)
+    require(f"verifying {len(triangles)} triangles", BYTES_PER_TRIANGLE * len(triangles))
     sites = np.ascontiguousarray(exactly_scaled(points))
     w = work_array(sites)
     adjacent, crowded = _adjacent(triangles)
