@@ -59,6 +59,7 @@ import numpy as np
 
 from . import _topology
 from ._input import check_points, exactly_scaled, first_copies
+from ._memory import require
 from ._mesh_input import check_duplicates, check_neighbors, check_simplices
 from .predicates import work_array
 
@@ -113,6 +114,8 @@ class Space:
         Hull facets that x is not behind.
     dents(sites, hull, w) : int
         Ridges of the hull with more than two facets, or along which it bends inwards.
+    bytes_per_simplex : int
+        Memory that the proof takes at most, as measured.
     """
 
     words: dict[str, str]
@@ -122,6 +125,7 @@ class Space:
     count_containing: Callable[..., int]
     count_facing: Callable[..., int]
     dents: Callable[..., int]
+    bytes_per_simplex: int
 
 
 def prove(
@@ -142,6 +146,8 @@ def prove(
         neighbors = check_neighbors(neighbors, len(simplices), corners)
     if duplicates is not None:
         duplicates = check_duplicates(duplicates, len(points))
+    name = "triangles" if corners == 3 else "tetrahedra"
+    require(f"verifying {len(simplices)} {name}", space.bytes_per_simplex * len(simplices))
     sites = np.ascontiguousarray(exactly_scaled(points))
     w = work_array(sites)
 

@@ -57,6 +57,8 @@ def verify(
     ValueError
         If points are not real, finite and of shape (n, 3), or simplices, neighbors or duplicates are not
         integers, have another shape, or name what there is not.
+    MemoryError
+        If the system does not have the memory.
     """
     return prove(
         SPACE,
@@ -158,4 +160,5 @@ SPACE = Space(
     count_containing=_count_containing,
     count_facing=_count_facing,
     dents=_dents,
+    bytes_per_simplex=450,
 )

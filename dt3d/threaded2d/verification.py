@@ -59,6 +59,8 @@ def verify(
     ValueError
         If points are not real, finite and of shape (n, 2), or triangles, neighbors or duplicates are not
         integers, have another shape, or name what there is not.
+    MemoryError
+        If the system does not have the memory.
     """
     return prove(
         PLANE,
@@ -150,4 +152,5 @@ PLANE = Space(
     count_containing=_count_containing,
     count_facing=_count_facing,
     dents=_dents,
+    bytes_per_simplex=170,
 )
