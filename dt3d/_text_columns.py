@@ -9,7 +9,7 @@ import numpy as np
 
 from ._text_cells import is_integer, is_missing, is_number, split
 from ._text_header import coordinate_columns, is_header, plain_name
-from ._text_lines import COMMENT_MARKS, Lines, content, read_lines, shown
+from ._text_lines import COMMENT_MARKS, Lines, content, read_lines, shown, shown_names
 from ._text_numbers import decimal_mark, numbers
 
 _COMMAS_WITHIN = re.compile(r"[-+]?[0-9]+(,[0-9]+)*(\.[0-9]*)?([eEdD][-+]?[0-9]+)?")
@@ -158,10 +158,11 @@ def _fitted_names(rows: Lines, names: list[str], first: list[str], used: int) ->
     """As many names as columns in use."""
     if len(names) > used and not any(names[used:]):
         names = names[:used]
-    if len(names) == used - 1 and not is_number(first[0]):
+    row_names = rows.text[0].lstrip().startswith('"') or not (is_number(first[0]) or is_number(first[0], ","))
+    if len(names) == used - 1 and row_names and {"x", "y", "z"} <= set(map(plain_name, names)):
         names = ["", *names]  # R does not name the column of row names
     if len(names) != used:
-        msg = f"{used} columns, but the header names {len(names)}: {', '.join(names)}"
+        msg = f"{used} columns, but the header names {len(names)}: {shown_names(names)}"
         raise rows.error(0, msg)
     return names
 
@@ -177,7 +178,7 @@ def _chosen_columns(
         unnamed = 1 if width > 1 and not names[0] else 0  # pandas' index
         if width - unnamed in (2, 3):
             return list(range(unnamed, width))
-        msg = f"{rows.path}: found columns {', '.join(names)}; {_WANTED}"
+        msg = f"{rows.path}: found columns {shown_names(names)}; {_WANTED}"
         raise ValueError(msg)
     if width in (2, 3):
         return list(range(width))
@@ -197,7 +198,8 @@ def _chosen_columns(
 
 
 def _example(width: int) -> str:
-    return f"'# x y z {' '.join(f'c{k}' for k in range(4, width + 1))}'"
+    more = [f"c{k}" for k in range(4, width + 1)]
+    return f"'# x y z {' '.join(more if width < 13 else [more[0], '...', more[-1]])}'"
 
 
 def _counts_rows(rows: Lines, delimiter: str | None) -> bool:

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from ._text_cells import is_missing, is_number
+from ._text_lines import shown_names
 
 FAMILIES = {
     "x, y, z": ({"x"}, {"y"}, {"z"}),
@@ -70,7 +71,7 @@ def coordinate_columns(path: Path, names: list[str]) -> list[int] | None:
             places[2] = [k for k, name in enumerate(plain) if name in HEIGHTS]
         for axis, where in zip("xyz", places, strict=True):
             if len(where) > 1:
-                same = ", ".join(f"{k + 1} ({names[k]})" for k in where)
+                same = shown_names([f"{k + 1} ({names[k]})" for k in where])
                 msg = f"{path}: the header calls columns {same} the coordinate {axis}; rename all but one"
                 raise ValueError(msg)
         sets.append((title, [where[0] for where in places if where]))

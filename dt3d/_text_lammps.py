@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._text_lines import Lines, content, read_lines, shown
+from ._text_lines import Lines, content, read_lines, shown, shown_names
 from ._text_numbers import numbers
 
 _COUNT = re.compile(r"[0-9]{1,18}")
@@ -52,5 +52,5 @@ def _positions(header: Lines, rows: Lines) -> np.ndarray:
     for axes in (["x", "y", "z"], ["xu", "yu", "zu"], ["x", "y"], ["xu", "yu"]):
         if all(names.count(axis) == 1 for axis in axes):
             return numbers(rows, None, [names.index(axis) for axis in axes], len(names))
-    msg = f"found columns {', '.join(names)}; expected x, y and z, as 'dump custom ... id x y z' writes them"
+    msg = f"found columns {shown_names(names)}; expected x, y and z, as 'dump custom ... x y z' writes them"
     raise header.error(0, msg)

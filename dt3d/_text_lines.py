@@ -105,3 +105,9 @@ def _without_remark(line: str) -> str:
 def shown(text: str) -> str:
     """A part of the file as a message quotes it: at most some 40 characters."""
     return repr(text if len(text) <= 40 else text[:40] + "...")
+
+
+def shown_names(names: list[str]) -> str:
+    """The names of columns as a message lists them: a dozen at most."""
+    short = [name if len(name) <= 30 else name[:30] + "..." for name in names[:12]]
+    return ", ".join(short) + (f", ... ({len(names)} in all)" if len(names) > 12 else "")

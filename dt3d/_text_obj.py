@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,8 @@ KEYWORDS = set(_STATEMENTS.split())
 
 NUMERIC = {"v", "vt", "vn", "vp", "f", "fo", "l", "p"}
 """The statements that numbers alone follow."""
+
+_VERTEX_WITHIN = re.compile(r"v(?:\s+[-+]?[0-9.]+){3}")
 
 WIDTHS = {4, 5, 7, 8}
 """Cells of a vertex: v x y z, also with a weight, a colour, or both."""
@@ -46,6 +49,9 @@ def read_obj(path: Path) -> np.ndarray:
             raise lines.error(k, msg, 1)
         if "v" in line.lstrip()[2:] and cells[0] in NUMERIC:
             msg = f"a second statement on the line: {shown(line)}"
+            raise lines.error(k, msg)
+        if cells[0] not in NUMERIC and _VERTEX_WITHIN.search(line):
+            msg = f"a vertex within a name: {shown(line)}"
             raise lines.error(k, msg)
         if cells[0] == "v":
             if len(cells) not in WIDTHS:

@@ -164,6 +164,13 @@ def test_two_sets_of_coordinates(tmp_path):
 def test_names_of_rows_as_r_writes_them(tmp_path):
     text = '"x" "y" "z"\n' + "".join(f'"row {k}" {" ".join(cells)}\n' for k, cells in enumerate(CELLS))
     np.testing.assert_array_equal(read(tmp_path, text, ".txt"), POINTS)
+    text = "x,y,z\n" + table([[f"p{k}", *cells] for k, cells in enumerate(CELLS)])
+    np.testing.assert_array_equal(read(tmp_path, text), POINTS)
+    # names that are too few for another reason
+    for header in ("x;y", "y;z", "name;x;y"):
+        rows = [[f"p{k}", *cells][4 - header.count(";") - 2 :] for k, cells in enumerate(CELLS)]
+        text = header + "\n" + table(rows, ";").replace(".", ",")
+        refused(tmp_path, text, f"but the header names {header.count(';') + 1}: ")
 
 
 def test_the_columns_numbers_of_pandas_are_a_header_behind_an_index_and_a_question_elsewhere(tmp_path):
