@@ -21,7 +21,7 @@ from rich.markup import escape
 
 import dt3d
 
-from ._paths import check_apart
+from ._paths import check_apart, check_writable
 from ._report import Growth, ledger_table, stats_table
 from ._status import BAD_INPUT, NOT_DELAUNAY, Printer, Verdict, one_line, run
 
@@ -73,11 +73,13 @@ def demo(*, out: Path = Path("out")) -> None:
     out
         The folder for both files; made if it is not there.
     """
-    from .files import write_mesh
-    from .plot import View, draw
+    from .files import check_mesh_path, write_mesh
+    from .plot import View, check_picture_path, draw
     from .samples import mtor
 
     out.mkdir(parents=True, exist_ok=True)
+    check_mesh_path(out / "mtor.vtu")
+    check_picture_path(out / "mtor.png")
     console = Printer(highlight=False)
     points = mtor()
     console.print(f"{len(points):,} atoms of two mTOR-mLST8 complexes (PDB entry 4JSV)")
@@ -259,6 +261,7 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
         msg = f"experiment {name} takes the options {takes}; got {', '.join(options)}"
         raise ValueError(msg) from None
     out.mkdir(parents=True, exist_ok=True)
+    check_writable(out / f"{name}.csv")
     run(out, console, **options)
 
 
@@ -317,6 +320,8 @@ def bench(
             console.print(f"not installed, so left out: {', '.join(missing)}", markup=False)
     limits = benchmark.Limits(repeats, limit)
     out.mkdir(parents=True, exist_ok=True)
+    for written in benchmark.written(out):
+        check_writable(written)
     measured = []
     for sites in sets:
         with console.status("") as status:

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import resource
 import signal
 import stat
 import subprocess
@@ -21,6 +20,8 @@ from dt3d._output import write_csv
 from dt3d._paths import check_apart, check_writable, written_aside
 from dt3d.files import read_mesh, read_points, write_mesh
 from dt3d.plot import draw
+
+resource = pytest.importorskip("resource")  # of POSIX
 
 MESHES = [".npz", ".vtu", ".vtk", ".msh", ".mesh", ".ply", ".stl"]
 PICTURES = [".png", ".pdf", ".svg", ".jpg"]
@@ -98,6 +99,19 @@ def test_a_full_disk_leaves_the_old_file(big, target):
         with small_files(max(0, limit)), pytest.raises(OSError, match=r"."):
             save(big, target)
         is_as_it_was(target)
+
+
+def test_a_full_disk_names_the_file(big, target):
+    with (
+        small_files(LIMIT),
+        pytest.raises(OSError, match=r"cannot write .*old\..*; the old file is as it was$") as caught,
+    ):
+        save(big, target)
+    assert ".dt3d-" not in str(caught.value)
+    target.unlink()
+    with small_files(LIMIT), pytest.raises(OSError, match=r"cannot write .*old\.[a-z]+: [A-Za-z0-9 ]+$"):
+        save(big, target)
+    assert os.listdir(target.parent) == []
 
 
 @pytest.fixture
