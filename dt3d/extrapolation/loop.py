@@ -15,7 +15,7 @@ import numpy as np
 
 import scanvec as sv
 
-from .._errors import InconsistencyError
+from .._errors import InconsistencyError, InternalError
 from .._memory import require
 from . import fused
 from .buckets import Buckets, bucket
@@ -82,6 +82,8 @@ def triangulate(
     ------
     InconsistencyError
         If too many tetrahedra contradict each other for the set to be finished.
+    InternalError
+        If ``exact``, and a tetrahedron contradicts another one.
     ValueError
         If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
@@ -190,12 +192,12 @@ def _wrapped_facets(buckets: Buckets) -> Face:
 
 def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
     if exact and out.inconsistencies:
-        msg = (
-            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: "
-            f"this is an error of dt3d, please report it with the points"
-        )
-        raise InconsistencyError(msg, out.inconsistencies)
+        msg = f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude"
+        raise InternalError(msg)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too
+    if exact and 2 * total > n * n:
+        msg = f"{total} tetrahedra of {n} sites were found, more than any triangulation has"
+        raise InternalError(msg)
     if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total) or 2 * total > n * n:
         msg = (
             f"{out.inconsistencies} inconsistencies among {total} tetrahedra after "
