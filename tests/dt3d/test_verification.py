@@ -1,5 +1,7 @@
 """`verify` passes what is right and names what is broken."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import scipy.spatial
@@ -25,6 +27,14 @@ def broken(report):
     return [what for what, count in report.invariants if count]
 
 
+def verify_changed(tri, **changes):
+    """What `verify` says of a result some of whose arrays are others."""
+    names = ("points", "simplices", "neighbors", "duplicates")
+    arrays = {name: getattr(tri, name) for name in names} | changes
+    points, simplices = arrays.pop("points"), arrays.pop("simplices")
+    return verify(points, simplices, perturbed=True, **arrays)
+
+
 def test_what_scipy_finds_on_random_sites_verifies_once_it_is_oriented():
     simplices = scipy.spatial.Delaunay(RANDOM).simplices
     a, b, c, d = RANDOM[simplices].swapaxes(0, 1)
@@ -36,8 +46,10 @@ def test_what_scipy_finds_on_random_sites_verifies_once_it_is_oriented():
 
 def test_a_turned_tetrahedron():
     tri = dt3d.Delaunay(RANDOM)
-    tri.simplices[3] = tri.simplices[3][[1, 0, 2, 3]]
-    assert "every tetrahedron is positively oriented" in broken(tri.verify())
+    simplices = tri.simplices.copy()
+    simplices[3] = simplices[3][[1, 0, 2, 3]]
+    report = verify_changed(tri, simplices=simplices)
+    assert "every tetrahedron is positively oriented" in broken(report)
 
 
 def test_a_missing_tetrahedron():
@@ -53,17 +65,18 @@ def test_a_tetrahedron_twice():
 
 def test_a_wrong_neighbor():
     tri = dt3d.Delaunay(RANDOM)
-    tri.neighbors[0, 0] += 1
-    assert broken(tri.verify()) == ["neighbors says which ones"]
+    neighbors = tri.neighbors.copy()
+    neighbors[0, 0] += 1
+    assert broken(verify_changed(tri, neighbors=neighbors)) == ["neighbors says which ones"]
 
 
 def test_a_lost_site_and_a_false_duplicate():
     tri = dt3d.Delaunay(RANDOM)
     lost = verify(np.concatenate([RANDOM, [[0.5, 0.5, 0.5]]]), tri.simplices)
     assert broken(lost) == ["every site is a vertex, or a duplicate of one"]
-    tri.points = np.concatenate([RANDOM, [[0.5, 0.5, 0.5]]])
-    tri.duplicates = np.array([[80, 3]])
-    assert broken(tri.verify()) == ["every site is a vertex, or a duplicate of one"]
+    points = np.concatenate([RANDOM, [[0.5, 0.5, 0.5]]])
+    report = verify_changed(tri, points=points, duplicates=np.array([[80, 3]]))
+    assert broken(report) == ["every site is a vertex, or a duplicate of one"]
 
 
 def test_a_duplicate_may_be_used_for_the_other():
@@ -104,8 +117,9 @@ def test_command_line(tmp_path, capsys):
     write_mesh(tri, tmp_path / "good.npz")
     assert cli.main(["verify", str(tmp_path / "good.npz")]) == 0
     assert "good.npz: a Delaunay triangulation" in capsys.readouterr().out.replace("\n", "")
-    tri.simplices[0] = tri.simplices[0][[1, 0, 2, 3]]
-    write_mesh(tri, tmp_path / "bad.npz")
+    arrays = {name: getattr(tri, name).copy() for name in ("points", "simplices", "neighbors", "iteration")}
+    arrays["simplices"][0] = arrays["simplices"][0][[1, 0, 2, 3]]
+    write_mesh(SimpleNamespace(**arrays), tmp_path / "bad.npz")
     with pytest.raises(SystemExit) as caught:
         cli.main(["verify", str(tmp_path / "bad.npz")])
     assert caught.value.code == 1
