@@ -1,5 +1,6 @@
 """`verify` passes what is right and names what is broken."""
 
+
 import numpy as np
 import pytest
 import scipy.spatial
