@@ -59,8 +59,11 @@ import numpy as np
 
 from . import _topology
 from ._input import check_points, exactly_scaled, first_copies
+from ._memory import require
 from ._mesh_input import check_duplicates, check_neighbors, check_simplices
 from .predicates import work_array
+
+BYTES_PER_CORNER = 60  # of all simplices, at least, as measured
 
 
 @dataclass(frozen=True)
@@ -134,7 +137,10 @@ def prove(
     perturbed: bool,
     oriented: bool,
 ) -> Verification:
-    """Check the sentences of this module; `dt3d.verification.verify` has the parameters."""
+    """Check the sentences of this module; `dt3d.verification.verify` has the parameters.
+
+    MemoryError if the system does not have the memory.
+    """
     corners, words = len(space.outward), space.words
     points = check_points(points, corners - 1)
     simplices = check_simplices(simplices, len(points), corners, words["simplices"])
@@ -142,6 +148,7 @@ def prove(
         neighbors = check_neighbors(neighbors, len(simplices), corners)
     if duplicates is not None:
         duplicates = check_duplicates(duplicates, len(points))
+    require(f"verifying {len(simplices)} {words['simplices']}", BYTES_PER_CORNER * simplices.size)
     sites = np.ascontiguousarray(exactly_scaled(points))
     w = work_array(sites)
 

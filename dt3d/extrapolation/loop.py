@@ -16,6 +16,7 @@ import numpy as np
 import scanvec as sv
 
 from .._errors import InconsistencyError
+from .._memory import require
 from . import fused
 from .buckets import Buckets, bucket
 from .dead_faces import (
@@ -42,6 +43,8 @@ from .start import both_sides, seeds
 # ("too many" in the paper's Table 3).
 GIVE_UP_SHARE = 0.02
 GIVE_UP_COUNT = 100
+
+BYTES_PER_SITE = 1000  # at least, as measured
 
 
 class _Clock:
@@ -82,6 +85,7 @@ def triangulate(
     ValueError
         If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
+    require(f"the extrapolation of {len(sites)} sites", BYTES_PER_SITE * len(sites))
     if exact:
         check_magnitudes(sites)
         if isinstance(machine, sv.Device) and fused.serves(sites):
