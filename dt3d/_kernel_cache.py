@@ -28,11 +28,7 @@ PATIENCE = 2.0  # seconds for another process to save what it has compiled
 def cached_njit(function: Callable | None = None, **options: Any) -> Any:
     """``numba.njit(cache=True)`` with a cache that is never stale and never in the way; a decorator.
 
-    >>> @cached_njit
-    ... def twice(x):
-    ...     return 2 * x
-    >>> twice(21)
-    42
+    ``@cached_njit`` or, with options of ``numba.njit``, ``@cached_njit(nogil=True)``.
     """
     if function is None:
         return partial(cached_njit, **options)
@@ -68,7 +64,7 @@ class Kept:
             cls.said = True
             logging.getLogger("dt3d").warning(
                 "what was compiled could not be kept in %s (%s): other processes compile it again; %s",
-                folder, error.strerror, CURE,
+                folder, error.strerror or error, CURE,
             )  # fmt: skip
 
 

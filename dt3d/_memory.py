@@ -6,12 +6,11 @@ to write is compared with what there is: free memory of the machine and of the c
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-GIGABYTE = 10**9
+UNKNOWN = 1 << 60  # bytes; what is assumed where the system does not tell: no limit
 MARGIN = 64 << 20  # bytes left to all else
 SMALL = 32 << 20  # bytes that are not worth a look, which takes up to a millisecond
 
@@ -37,29 +36,21 @@ def require(what: str, written: float, reserved: float | None = None) -> None:
     if max(written, reserved) < SMALL:
         return
     for need, there, where in (
-        (written, available(), "available"),
+        (written, available_memory(), "available"),
         (reserved, address_space(), "left of this process's address space (ulimit -v)"),
     ):
         need += MARGIN
         if need > there:
-            msg = (
-                f"{what} needs about {need / GIGABYTE:.2g} GB more memory, and "
-                f"{max(there, 0) / GIGABYTE:.2g} GB are {where}"
-            )
+            msg = f"{what} needs about {gigabytes(need)} more memory, and {gigabytes(there)} are {where}"
             raise MemoryError(msg)
 
 
-def available(root: Path = Path("/")) -> float:
-    """Bytes that this process can take before the system ends it; infinite where that is not known.
+def available_memory(root: Path = Path("/")) -> int:
+    """Bytes that this process can take before the system ends it, the limits of containers included.
 
     ``root`` is where the system's files are.
     """
-    return min(_of_machine(root), *_of_containers(root))
-
-
-def available_memory() -> int:
-    """Bytes for an array that will be written, within both limits; 2^60 where neither is known."""
-    return int(max(0, min(available(), address_space(), 2.0**60)))
+    return max(0, min(_of_machine(root), *_of_containers(root)))
 
 
 def gigabytes(size: float) -> str:
@@ -67,21 +58,21 @@ def gigabytes(size: float) -> str:
     return f"{size / 1e9:.1f} GB" if size >= 1e8 else f"{size / 1e6:.1f} MB"
 
 
-def address_space() -> float:
-    """Bytes that this process may still reserve under its limit (ulimit -v); infinite without one."""
+def address_space() -> int:
+    """Bytes that this process may still reserve under its limit (ulimit -v)."""
     try:
         import resource
 
         limit, _ = resource.getrlimit(resource.RLIMIT_AS)
         if limit == resource.RLIM_INFINITY:
-            return math.inf
+            return UNKNOWN
         pages = int(Path("/proc/self/statm").read_text().split()[0])
-        return limit - pages * resource.getpagesize()
+        return max(0, limit - pages * resource.getpagesize())
     except (ImportError, OSError, ValueError):
-        return math.inf
+        return UNKNOWN
 
 
-def _of_machine(root: Path) -> float:
+def _of_machine(root: Path) -> int:
     try:
         lines = dict(line.split(":") for line in (root / "proc/meminfo").read_text().splitlines())
         return 1024 * sum(int(lines[name].split()[0]) for name in ("MemAvailable", "SwapFree"))
@@ -90,13 +81,13 @@ def _of_machine(root: Path) -> float:
     try:
         import psutil  # not of this package; for systems without these files, where somebody has it
     except ImportError:
-        return math.inf
-    return float(psutil.virtual_memory().available)
+        return UNKNOWN
+    return int(psutil.virtual_memory().available)
 
 
-def _of_containers(root: Path) -> Iterator[float]:
+def _of_containers(root: Path) -> Iterator[int]:
     """What the control groups of this process, and those around them, leave it; of version 2 and 1."""
-    yield math.inf
+    yield UNKNOWN
     try:
         groups = [line.split(":", 2) for line in (root / "proc/self/cgroup").read_text().splitlines()]
     except OSError:
@@ -117,13 +108,13 @@ def _of_containers(root: Path) -> Iterator[float]:
                 break
 
 
-def _of_group(folder: Path, limit: str, usage: str, unused: str) -> float:
+def _of_group(folder: Path, limit: str, usage: str, unused: str) -> int:
     """What is left of the limit of one group, where it has one; files that are only cached can go."""
     try:
         most = int((folder / limit).read_text())  # "max" is no number
         taken = int((folder / usage).read_text())
     except (OSError, ValueError):
-        return math.inf
+        return UNKNOWN
     try:
         stat = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
         taken -= int(stat.get(unused, 0))

@@ -63,6 +63,8 @@ from ._memory import require
 from ._mesh_input import check_duplicates, check_neighbors, check_simplices
 from .predicates import work_array
 
+BYTES_PER_CORNER = 60  # of all simplices, at least, as measured
+
 
 @dataclass(frozen=True)
 class Verification:
@@ -114,8 +116,6 @@ class Space:
         Hull facets that x is not behind.
     dents(sites, hull, w) : int
         Ridges of the hull with more than two facets, or along which it bends inwards.
-    bytes_per_simplex : int
-        Memory that the proof takes at most, as measured.
     """
 
     words: dict[str, str]
@@ -125,7 +125,6 @@ class Space:
     count_containing: Callable[..., int]
     count_facing: Callable[..., int]
     dents: Callable[..., int]
-    bytes_per_simplex: int
 
 
 def prove(
@@ -138,7 +137,10 @@ def prove(
     perturbed: bool,
     oriented: bool,
 ) -> Verification:
-    """Check the sentences of this module; `dt3d.verification.verify` has the parameters."""
+    """Check the sentences of this module; `dt3d.verification.verify` has the parameters.
+
+    MemoryError if the system does not have the memory.
+    """
     corners, words = len(space.outward), space.words
     points = check_points(points, corners - 1)
     simplices = check_simplices(simplices, len(points), corners, words["simplices"])
@@ -146,8 +148,7 @@ def prove(
         neighbors = check_neighbors(neighbors, len(simplices), corners)
     if duplicates is not None:
         duplicates = check_duplicates(duplicates, len(points))
-    name = "triangles" if corners == 3 else "tetrahedra"
-    require(f"verifying {len(simplices)} {name}", space.bytes_per_simplex * len(simplices))
+    require(f"verifying {len(simplices)} {words['simplices']}", BYTES_PER_CORNER * simplices.size)
     sites = np.ascontiguousarray(exactly_scaled(points))
     w = work_array(sites)
 

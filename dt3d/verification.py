@@ -160,5 +160,4 @@ SPACE = Space(
     count_containing=_count_containing,
     count_facing=_count_facing,
     dents=_dents,
-    bytes_per_simplex=450,
 )

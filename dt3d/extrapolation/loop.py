@@ -44,7 +44,7 @@ from .start import both_sides, seeds
 GIVE_UP_SHARE = 0.02
 GIVE_UP_COUNT = 100
 
-BYTES_PER_SITE = 1000  # at least, as measured
+BYTES_PER_SITE = 1500  # at least, as measured
 
 
 class _Clock:

@@ -135,6 +135,7 @@ def _first(points: np.ndarray) -> np.ndarray:
 def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
+    require(f"the result of {slots} tetrahedra", 8 * slots)  # their numbers now, and their iterations later
     number = np.empty(slots, np.int32)
     pieces: dict[int, int] = {}
 

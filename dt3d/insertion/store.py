@@ -61,9 +61,9 @@ class Store:
             begin = self.used
             if begin >= self.assured:
                 # resident only when it is written, which is now; address space it has
-                self.assured = min(begin + CHECKED, self.capacity)
-                written = SLOT * (self.assured - begin)
-                require(f"a triangulation of more than {begin} tetrahedra", written, reserved=0)
+                end = min(begin + CHECKED, self.capacity)
+                require(f"a triangulation of more than {begin} tetrahedra", SLOT * (end - begin), reserved=0)
+                self.assured = end
             self.used = min(begin + self.block, self.capacity)
             return begin, self.used
 

@@ -56,7 +56,7 @@ LOCATIONS = ("dag", "walk")
 
 # Bytes a site, as measured: what is written, and with what is only reserved.
 WRITTEN_IN_PLACE, RESERVED_IN_PLACE = 190, 210
-WRITTEN_WITH_HISTORY, RESERVED_WITH_HISTORY = 400, 700
+WRITTEN_WITH_HISTORY, RESERVED_WITH_HISTORY = 600, 800
 
 
 @dataclass(frozen=True)

@@ -152,5 +152,4 @@ PLANE = Space(
     count_containing=_count_containing,
     count_facing=_count_facing,
     dents=_dents,
-    bytes_per_simplex=170,
 )

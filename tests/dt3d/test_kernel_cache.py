@@ -150,6 +150,18 @@ def test_code_under_the_name_of_another_is_not_run(package):
     assert compiled(again) == 1
 
 
+def test_code_of_an_older_version_that_still_runs_is_not_run(package):
+    """A process that began before an update saves what it compiles under the same name."""
+    package.load().kernel(3)
+    (file,) = package.files("nbc")
+    old = file.read_bytes()
+    package.write("constants", "SIGN = 2\n")
+    assert package.load().kernel(3) == 6
+    (file,) = package.files("nbc")
+    file.write_bytes(old)
+    assert package.load().kernel(3) == 6
+
+
 def test_a_full_disk_does_not_end_the_call_and_is_said_once(package, monkeypatch, caplog):
     module = package.load()
 
