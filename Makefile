@@ -1,4 +1,5 @@
 # Two commands matter: `make demo` and `make test`. Each sets up what it needs in .venv, once.
+# `make fuzz TIME=3600` looks for inputs that fail, for as many seconds.
 
 # The first Python on the path that is new enough; `make PYTHON=/path/to/python test` chooses another.
 NEW_ENOUGH := import sys, venv; sys.exit(sys.version_info < (3, 11))
@@ -12,7 +13,7 @@ READY := $(VENV)/.ready
 # Files of tests run side by side, one a core; a file stays together, so that what it compiles is compiled once.
 TOGETHER := -n auto --dist loadfile
 
-.PHONY: demo test test-all lint clean
+.PHONY: demo test test-all fuzz lint clean
 
 demo: $(READY)
 	$(BIN)/dt3d demo --out out
@@ -24,6 +25,11 @@ test: $(READY)
 test-all: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/python -m pytest $(TOGETHER) -m "slow or not slow"
+
+TIME ?= 60
+
+fuzz: $(READY)
+	$(BIN)/python -m tests.fuzz --seconds $(TIME)
 
 lint: $(READY)
 	$(BIN)/ruff check .

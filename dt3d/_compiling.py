@@ -10,7 +10,13 @@ import functools
 import logging
 from typing import Any
 
+from ._kernel_cache import CURE, Kept
+
 MESSAGE = "compiling, which takes some ten to forty seconds once; numba keeps the result on disk"
+NOT_KEPT = (
+    "compiling, which takes some ten to forty seconds in every process, for neither the package's folder nor "
+    f"the user's cache folder can be written; {CURE}"
+)
 
 
 @functools.cache
@@ -26,7 +32,7 @@ def announce_compilation() -> None:
             module = event.data["dispatcher"].py_func.__module__
             if not self.announced and module.partition(".")[0] == "dt3d":
                 self.announced = True
-                logging.getLogger("dt3d").warning(MESSAGE)
+                logging.getLogger("dt3d").warning(MESSAGE if Kept.anywhere else NOT_KEPT)
 
         def on_end(self, event: Any) -> None:
             pass

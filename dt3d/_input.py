@@ -8,37 +8,24 @@ import numpy as np
 
 from ._errors import DegenerateInputError
 from ._exact_conversion import to_float64 as to_float64
+from ._given import as_numbers
 
 # Indices of faces (four a tetrahedron, some seven tetrahedra a site) are int32.
 MOST_SITES = 2**25
 
 
 def check_points(points: Any, dimension: int = 3) -> np.ndarray:
-    """The points as a float64 array of shape (n, dimension).
+    """The points as a float64 array of shape (n, dimension) of its own, in C order.
 
     Raises
     ------
     ValueError
-        If they are not numbers, not of shape (n, dimension), empty, masked, not finite, too many, or integers
-        that float64 cannot hold.
+        If they are not numbers that float64 holds exactly, not of shape (n, dimension), empty, masked in
+        places, not finite, or too many. The message says what to do about it.
     """
-    if np.ma.isMaskedArray(points):
-        msg = "points are a masked array; drop the masked rows first, for example points.compressed()"
-        raise ValueError(msg)
-    try:
-        given = np.asarray(points)
-    except ValueError as error:
-        msg = (
-            f"points must be an array of shape (n, {dimension}); the rows that came do not have one length "
-            f"({error})"
-        )
-        raise ValueError(msg) from None
-    if given.dtype.kind not in "iuf":
-        msg = f"points must be real numbers of shape (n, {dimension}), got dtype {given.dtype}"
-        raise ValueError(msg)
+    given, name = as_numbers(points, "points", dimension)
     if given.ndim != 2 or given.shape[1] != dimension:
-        msg = f"points must have shape (n, {dimension}), got {given.shape}"
-        raise ValueError(msg)
+        raise _shape_error(given, name, dimension)
     if not len(given):
         least = {2: "three", 3: "four"}[dimension]
         msg = f"points are empty; a triangulation needs at least {least} sites"
@@ -46,19 +33,81 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
     if len(given) > MOST_SITES:
         msg = f"at most 2^25 = {MOST_SITES} sites can be numbered, got {len(given)}"
         raise ValueError(msg)
-    with np.errstate(over="ignore"):
-        # in C order, since every other order is another type to numba and would be compiled again
-        array = given.astype(np.float64, order="C")
-    if given.dtype.kind in "iu" and (np.abs(array) > 2.0**53).any():
-        msg = (
-            "points have integers beyond 2^53, which float64 does not hold exactly; subtract an offset first"
-        )
-        raise ValueError(msg)
-    if not np.isfinite(array).all():
-        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-        msg = f"points must be finite: {len(bad)} rows have NaN or infinity, the first is row {bad[0]}"
-        raise ValueError(msg)
+    # a copy, since what was given may change; in C order, since every other order is another type to numba
+    array = np.array(to_float64(given, name), order="C")
+    _check_finite(array, "points")
     return array
+
+
+def check_queries(xi: Any, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Points to be located, as float64 (k, dimension), and the shape of the answers. There may be any number.
+
+    Raises
+    ------
+    ValueError
+        If they are not finite, real and of shape (..., dimension).
+    """
+    given, name = as_numbers(xi, "xi", dimension)
+    if not given.ndim or given.shape[-1] != dimension:
+        msg = f"xi, points to be located, must have shape (..., {dimension}), got {given.shape}"
+        if given.ndim == 2 and given.shape[0] == dimension:
+            msg += f"; it looks transposed: pass {name}.T"
+        raise ValueError(msg)
+    array = to_float64(given, name)
+    _check_finite(array, "xi")
+    return array.reshape(-1, dimension), given.shape[:-1]
+
+
+def _check_finite(array: np.ndarray, what: str) -> None:
+    if np.isfinite(array).all():
+        return
+    rows = np.isfinite(array).all(axis=-1)
+    first = np.argwhere(~rows)[0].tolist() if rows.ndim else []
+    which = f"row {first[0]}" if len(first) == 1 else f"index {tuple(first)}"
+    count = np.count_nonzero(~rows)
+    msg = f"{what} must be finite: {count} rows have NaN or infinity, the first is {which}"
+    if rows.ndim:
+        msg += f"; drop such rows: pass {what}[np.isfinite({what}).all(axis=-1)]"
+    raise ValueError(msg)
+
+
+def _shape_error(given: np.ndarray, name: str, dimension: int) -> ValueError:
+    """The error for points of a wrong shape, with the way out where one is likely."""
+    shape, cure = given.shape, ""
+    if given.dtype.kind in "US" and not given.ndim:
+        cure = "; for a file pass dt3d.files.read_points(path)"
+    elif len(shape) == 2 and shape[0] == dimension and shape[1] > dimension:
+        cure = f"; it looks transposed: pass {name}.T"
+    elif len(shape) == 2 and dimension == 3 and shape[1] == 2:
+        cure = "; for points in the plane use dt3d.threaded2d.Delaunay"
+    elif len(shape) == 2 and dimension == 2 and shape[1] == 3:
+        cure = f"; for points in space use dt3d.Delaunay, without the third coordinate pass {name}[:, :2]"
+    elif len(shape) == 2 and shape[1] > dimension:
+        cure = f"; if the first columns are the coordinates, pass {name}[:, :{dimension}]"
+    elif (len(shape) > 2 and shape[-1] == dimension) or (len(shape) == 1 and given.size % dimension == 0):
+        cure = f"; pass {name}.reshape(-1, {dimension})"
+    return ValueError(f"points must have shape (n, {dimension}), got {shape}{cure}")
+
+
+def check_seed(seed: Any) -> int:
+    """The seed as a Python integer, of any size.
+
+    Raises
+    ------
+    ValueError
+        If it is no integer, bool included, or negative.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        msg = f"seed must be an integer that is not negative, of any size, got {seed!r}"
+        raise ValueError(msg)
+    return int(seed)
+
+
+def word_of(seed: int) -> int:
+    """A seed of any size as one below 2^63, which compiled code takes; those below stay as they are."""
+    if seed < 2**63:
+        return seed
+    return int(np.random.SeedSequence(seed).generate_state(1, np.uint64)[0] >> np.uint64(1))
 
 
 def first_copies(sites: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,6 +156,8 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
         f"a 3D triangulation needs four sites that do not lie on a plane; the {n} distinct sites "
         f"that came {where} (dimension {dimension})"
     )
+    if dimension == 2:
+        msg += "; for points in the plane, given by two coordinates, there is dt3d.threaded2d.Delaunay"
     return DegenerateInputError(msg, dimension)
 
 

@@ -48,13 +48,16 @@ def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
 def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
     """The convex hull as a closed surface of its own points, oriented as ``tri.convex_hull``.
 
+    Of a subset, its boundary.
+
     Raises
     ------
     ImportError
         If PyVista is not installed.
     """
     pv = import_pyvista()
-    corners, faces = np.unique(tri.convex_hull, return_inverse=True)
+    facets = tri.boundary if hasattr(tri, "boundary") else tri.convex_hull
+    corners, faces = np.unique(facets, return_inverse=True)
     points = np.asarray(tri.points, np.float64)[corners]
     return pv.PolyData.from_regular_faces(points, faces.reshape(-1, 3))
 

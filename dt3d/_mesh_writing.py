@@ -23,7 +23,7 @@ def write_mesh(tri: Any, path: str | Path) -> None:
     .vtu .vtk    the tetrahedra, with cell data "iteration" and "volume" (needs PyVista)
     .npz         arrays points, simplices, neighbors, iteration and volume
     .msh .mesh   the tetrahedra for Gmsh and Medit; Medit's reference is the iteration (needs meshio)
-    .ply .stl    the surface of the convex hull; .stl in single precision (needs meshio)
+    .ply .stl    the surface of the convex hull; .stl in single precision (.ply needs meshio)
     ============ =============================================================================================
 
     Parameters
@@ -110,19 +110,26 @@ def _write_ply(tri: Any, path: Path) -> None:
 
 
 def _write_stl(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    """Binary STL: 80 bytes that say nothing, the number of facets, and 50 bytes for each.
+
+    meshio has NumPy write the facets (``tofile``), which overlooks a disk that is full at their end.
+    """
     points, cells = _hull(tri)
     greatest = np.abs(points).max(initial=0.0)
     if greatest > np.finfo(np.float32).max:
         msg = f"a coordinate of {greatest:g} is beyond the single precision of .stl; write .ply"
         raise ValueError(msg)
-    # of the set scaled to 1: squares of great and of small coordinates are not numbers of this precision
-    a, b, c = (points / (greatest or 1.0))[cells["triangle"]].swapaxes(0, 1)
+    corners = points[cells["triangle"]]
+    # normals of the set scaled to 1: squares of great and of small coordinates are beyond what float64 has
+    a, b, c = (corners / (greatest or 1.0)).swapaxes(0, 1)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    mesh = meshio.Mesh(points, cells, cell_data={"facet_normals": [normals]})
-    meshio.stl.write(path, mesh, binary=True)
+    facets = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    facets["corners"] = corners
+    with path.open("wb") as file:
+        file.write(b"convex hull by dt3d".ljust(80) + np.uint32(len(facets)).astype("<u4").tobytes())
+        file.write(facets.tobytes())
 
 
 def _hull(tri: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,12 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) 
 
 
 def save_figure(figure: Any, path: Path, dpi: float | None = None) -> None:
-    """A matplotlib figure as a picture, by the extension; OSError if it cannot be written."""
+    """A matplotlib figure as a picture, by the extension; OSError if it cannot be written.
+
+    It is drawn into memory: on a full disk the libraries below would cut a .jpg short without a word, and end
+    a .pdf with an error of zlib's.
+    """
+    picture = io.BytesIO()
+    figure.savefig(picture, format=path.suffix[1:].lower(), dpi=figure.dpi if dpi is None else dpi)
     with written_aside(path) as aside:
-        figure.savefig(aside, **({} if dpi is None else {"dpi": dpi}))
+        aside.write_bytes(picture.getbuffer())

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,10 +13,17 @@ from scanvec._writing import check_writable, written_aside
 
 from ._mesh import INSTALL_VIEW
 
-INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
 __all__ = [
-    "by_extension", "check_file", "check_writable", "import_for_format", "import_meshio", "written_aside",
-]  # fmt: skip
+    "by_extension",
+    "check_apart",
+    "check_file",
+    "check_writable",
+    "import_for_format",
+    "import_meshio",
+    "written_aside",
+]
+
+INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
 
 F = TypeVar("F", bound=Callable)
 
@@ -25,6 +34,17 @@ def check_file(path: Path) -> Path:
         msg = f"there is no file {path}"
         raise FileNotFoundError(msg)
     return path
+
+
+def check_apart(written: Path, other: Path, way_out: str = "name another file") -> None:
+    """A ValueError if what is to be written is another file of the same command, by links too."""
+    with suppress(OSError):  # there is no such file yet
+        if written.samefile(other):
+            msg = f"{written} and {other} are one file, which would be replaced; {way_out}"
+            raise ValueError(msg)
+    if os.path.realpath(written) == os.path.realpath(other):
+        msg = f"{written} and {other} would be one file; {way_out}"
+        raise ValueError(msg)
 
 
 def by_extension(path: Path, table: dict[str, F], verb: str) -> F:

@@ -11,22 +11,11 @@ from ._gmsh_files import read_gmsh_points
 from ._las_files import read_las
 from ._medit_files import read_medit
 from ._numpy_files import read_npy, read_npz
-from ._paths import import_meshio
 from ._pcd_files import read_pcd
 from ._ply_files import read_ply
 from ._stl_files import read_stl
 from ._vtk_legacy import read_legacy
 from ._vtk_xml import read_xml
-
-
-def _read_meshio(path: Path) -> np.ndarray:
-    # the readers themselves: meshio.read ends the process when it cannot read a file
-    reader = getattr(import_meshio(), path.suffix.lower()[1:]).read
-    try:
-        return reader(path).points
-    except Exception as error:
-        msg = f"{path} could not be read by meshio: {type(error).__name__}: {error}"
-        raise ValueError(msg) from error
 
 
 def _points_of(read: Callable[[Path], dict[str, np.ndarray]]) -> Callable[[Path], np.ndarray]:
@@ -37,7 +26,6 @@ BINARY_READERS: dict[str, Callable[[Path], np.ndarray]] = {
     ".npy": read_npy,
     ".npz": read_npz,
     ".ply": read_ply,
-    ".off": _read_meshio,
     ".pcd": read_pcd,
     **dict.fromkeys([".las", ".laz"], read_las),
     ".vtk": _points_of(read_legacy),

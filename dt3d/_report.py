@@ -6,6 +6,7 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ._stats import InsertionStatistics, Statistics
 
@@ -41,7 +42,7 @@ def stats_table(tri: Any, title: str) -> Table:
     """
     stats = tri.stats
     tetrahedra = len(tri.simplices)
-    table = Table(title=title, show_header=False, title_justify="left")
+    table = Table(title=Text(title), show_header=False, title_justify="left")
     table.add_column("what")
     table.add_column("value", justify="right")
     table.add_row("sites", f"{len(tri.points):,}")

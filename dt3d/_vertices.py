@@ -5,6 +5,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from ._memory import require
+
 
 @numba.njit(cache=True)
 def _around(simplices, n):
@@ -24,10 +26,22 @@ def _around(simplices, n):
     return begin, around
 
 
-@numba.njit(cache=True)
-def neighbors_of_vertices(simplices, n):
+def neighbors_of_vertices(simplices: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
     """(indptr, indices), int32: indices[indptr[v]:indptr[v + 1]] are the vertices that an edge joins with v,
-    in ascending order; for tetrahedra int (m, 4) of n sites."""
+    in ascending order; for tetrahedra int (m, 4) of n sites.
+
+    Raises
+    ------
+    MemoryError
+        If the system does not have the memory.
+    """
+    m = len(simplices)
+    require(f"finding the neighbors of {n} vertices", 16 * n + 28 * m, 16 * n + 68 * m)
+    return _neighbors(simplices, n)
+
+
+@numba.njit(cache=True)
+def _neighbors(simplices, n):
     begin, around = _around(simplices, n)
     indptr = np.zeros(n + 1, np.int32)
     indices = np.empty(12 * len(simplices), np.int32)  # only what is used gets memory

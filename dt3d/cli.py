@@ -1,15 +1,15 @@
 """The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`.
 
-Bad input ends with one line that says what is wrong, and exit status 2; Ctrl-C with status 130.
+Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation; 2 bad words or input, or a file that
+cannot be read or written, with one line that says what is wrong; 70 a fault of dt3d itself; 130 Ctrl-C; 141
+whoever read the output has closed it.
 """
 
 from __future__ import annotations
 
 import inspect
-import logging
 import os
 import sys
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -17,21 +17,26 @@ from typing import Annotated, Any, Literal
 import cyclopts
 from cyclopts import Parameter
 from rich.console import Console
+from rich.markup import escape
 
 import dt3d
 
+from ._paths import check_apart, check_writable
 from ._report import Growth, ledger_table, stats_table
+from ._status import BAD_INPUT, NOT_DELAUNAY, Printer, Verdict, one_line, run
 
 app = cyclopts.App(
     name="dt3d",
-    help="3D Delaunay triangulation by parallel incremental extrapolation.",
+    help="3D Delaunay triangulation by parallel incremental extrapolation.\n\n"
+    "Exit status: 0 done; 1 not a Delaunay triangulation (verify); 2 bad words, input or files; "
+    "70 a fault of dt3d; 130 Ctrl-C; 141 the output was closed.",
     version=dt3d.__version__,
     suppress_keyboard_interrupt=False,
 )
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command; warnings come out as single lines too.
+    """Run a command.
 
     Parameters
     ----------
@@ -41,47 +46,22 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        The exit status: 0, 2 for bad input, 130 for Ctrl-C.
+        The exit status, as `dt3d._status` lists them.
     """
-    errors = Console(stderr=True, soft_wrap=True, highlight=False)
 
-    def one_line(message: Warning | str, *_: Any, **__: Any) -> None:
-        errors.print(f"dt3d: warning: {message}", markup=False)
-
-    log = logging.getLogger("dt3d")
-    lines = _Lines(errors)
-    log.addHandler(lines)
-    try:
-        with warnings.catch_warnings():
-            warnings.showwarning = one_line
+    def command(errors: Console) -> None:
+        try:
             app(
                 sys.argv[1:] if argv is None else list(argv),
                 exit_on_error=False,
+                console=Printer(),
                 error_console=errors,
                 result_action="return_value",
             )
-    except cyclopts.CycloptsError:  # printed already
-        return 2
-    except KeyboardInterrupt:
-        errors.print("interrupted")
-        return 130
-    except (ValueError, OSError, ImportError, dt3d.InconsistencyError) as error:
-        errors.print(f"dt3d: {error}", markup=False)
-        return 2
-    finally:
-        log.removeHandler(lines)
-    return 0
+        except cyclopts.CycloptsError:  # printed already
+            raise Verdict(BAD_INPUT) from None
 
-
-class _Lines(logging.Handler):
-    """Prints what is logged as single lines."""
-
-    def __init__(self, console: Console) -> None:
-        super().__init__()
-        self.console = console
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.console.print(f"dt3d: {record.getMessage()}", markup=False)
+    return run(command)
 
 
 @app.command
@@ -93,12 +73,14 @@ def demo(*, out: Path = Path("out")) -> None:
     out
         The folder for both files; made if it is not there.
     """
-    from .files import write_mesh
-    from .plot import View, draw
+    from .files import check_mesh_path, write_mesh
+    from .plot import View, check_picture_path, draw
     from .samples import mtor
 
     out.mkdir(parents=True, exist_ok=True)
-    console = Console(highlight=False)
+    check_mesh_path(out / "mtor.vtu")
+    check_picture_path(out / "mtor.png")
+    console = Printer(highlight=False)
     points = mtor()
     console.print(f"{len(points):,} atoms of two mTOR-mLST8 complexes (PDB entry 4JSV)")
     tri = _triangulate(console, points, method="extrapolation")
@@ -110,7 +92,7 @@ def demo(*, out: Path = Path("out")) -> None:
         View("those with edges up to 6 Å: the proteins", shrink=0.9, cut=False, longest=6.0),
     ]
     draw(tri, out / "mtor.png", views)
-    console.print(f"wrote {out / 'mtor.vtu'} (for dt3d view, ParaView, PyVista) and {out / 'mtor.png'}")
+    _print(console, f"wrote {out / 'mtor.vtu'} (for dt3d view, ParaView, PyVista) and {out / 'mtor.png'}")
 
 
 @app.command
@@ -126,6 +108,7 @@ def triangulate(
     dtype: Literal["float64", "float32"] | None = None,
     seed: int = 0,
     picture: Path | None = None,
+    force: bool = False,
 ) -> None:
     """Triangulate the points of a file.
 
@@ -153,6 +136,8 @@ def triangulate(
         Seed of the perturbation.
     picture
         Also draw a picture: .png .pdf .svg .jpg
+    force
+        Let the mesh replace the very file that the points are read from. Other files are replaced anyway.
     """
     from .files import check_mesh_path, read_points, write_mesh
     from .plot import check_picture_path, draw
@@ -161,11 +146,16 @@ def triangulate(
     check_mesh_path(output)
     if picture is not None:
         check_picture_path(picture)
+        check_apart(picture, output)
+    if not force:
+        check_apart(output, source, way_out="name another file, or say --force")
+        if picture is not None:
+            check_apart(picture, source)
     on = _machine(machine, processors)
 
-    console = Console(highlight=False)
+    console = Printer(highlight=False)
     points = read_points(source)
-    console.print(f"{len(points):,} points from {source}")
+    _print(console, f"{len(points):,} points from {source}")
     tri = _triangulate(
         console,
         points,
@@ -176,13 +166,13 @@ def triangulate(
         dtype=dtype,
         seed=seed,
     )
-    console.print(stats_table(tri, str(source)))
+    console.print(stats_table(tri, one_line(source)))
     if on is not None and on.ledger is not None:
         console.print(ledger_table(on.ledger))
     write_mesh(tri, output)
     if picture is not None:
         draw(tri, picture)
-    console.print(f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
+    _print(console, f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
 
 
 @app.command
@@ -194,7 +184,7 @@ def verify(file: Path) -> None:
     Parameters
     ----------
     file
-        A mesh of tetrahedra, positively oriented: .vtu .vtk .npz .msh .mesh.
+        A mesh of tetrahedra of either orientation: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
     """
     from .files import read_mesh
     from .verification import verify as check
@@ -202,11 +192,11 @@ def verify(file: Path) -> None:
     mesh = read_mesh(file)
     outcome = check(mesh.points, mesh.simplices)
     verdict = "a Delaunay triangulation" if outcome else "NOT a Delaunay triangulation"
-    console = Console(highlight=False)
+    console = Printer(highlight=False)
     console.print(str(outcome), markup=False, soft_wrap=True)
-    console.print(f"{file}: {verdict}", markup=False, soft_wrap=True)
+    console.print(f"{one_line(file)}: {verdict}", markup=False, soft_wrap=True)
     if not outcome:
-        sys.exit(1)
+        raise Verdict(NOT_DELAUNAY)
 
 
 @app.command
@@ -216,7 +206,7 @@ def view(file: Path, *, screenshot: Path | None = None) -> None:
     Parameters
     ----------
     file
-        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh.
+        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
     screenshot
         Draw into this file and open no window; works without a screen.
     """
@@ -226,10 +216,11 @@ def view(file: Path, *, screenshot: Path | None = None) -> None:
 
     if screenshot is not None:
         check_picture_path(screenshot)
+        check_apart(screenshot, file)
     mesh = read_mesh(file)
     if screenshot is not None:
         draw(mesh, screenshot)
-        Console(highlight=False).print(f"wrote {screenshot}")
+        _print(Printer(highlight=False), f"wrote {screenshot}")
         return
     if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         msg = "there is no screen to open a window on; use --screenshot FILE.png"
@@ -252,7 +243,7 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
     """
     from .experiments import EXPERIMENTS
 
-    console = Console(highlight=False)
+    console = Printer(highlight=False)
     if name is None:
         for known, function in EXPERIMENTS.items():
             summary = " ".join((inspect.getdoc(function) or "").partition("\n\n")[0].split())
@@ -270,6 +261,7 @@ def experiment(name: str | None = None, *, out: Path = Path("out"), **options: i
         msg = f"experiment {name} takes the options {takes}; got {', '.join(options)}"
         raise ValueError(msg) from None
     out.mkdir(parents=True, exist_ok=True)
+    check_writable(out / f"{name}.csv")
     run(out, console, **options)
 
 
@@ -314,8 +306,11 @@ def bench(
     """
     from . import bench as benchmark
 
+    for path in file:
+        for written in benchmark.written(out):
+            check_apart(written, path)
     # a table in a file need not be as narrow as a terminal
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else 110)
+    console = Printer(highlight=False, width=None if sys.stdout.isatty() else 110)
     sets = [benchmark.generated(name, round(n)) for name in distributions for n in sizes]
     sets += [benchmark.from_file(path) for path in file]
     if against is None:
@@ -325,11 +320,22 @@ def bench(
             console.print(f"not installed, so left out: {', '.join(missing)}", markup=False)
     limits = benchmark.Limits(repeats, limit)
     out.mkdir(parents=True, exist_ok=True)
+    for written in benchmark.written(out):
+        check_writable(written)
     measured = []
     for sites in sets:
         with console.status("") as status:
-            measured += benchmark.compare(sites, against, threads or [None], limits, verify, status.update)
+
+            def say(text: str, status: Any = status) -> None:
+                status.update(escape(one_line(text)))
+
+            measured += benchmark.compare(sites, against, threads or [None], limits, verify, say)
     benchmark.publish(measured, out, console)
+
+
+def _print(console: Console, text: str) -> None:
+    """A line with names of files, which may hold anything."""
+    console.print(one_line(text), markup=False, soft_wrap=True)
 
 
 def _triangulate(console: Console, points: Any, **options: Any) -> Any:

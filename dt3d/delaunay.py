@@ -7,7 +7,7 @@ import time
 import warnings
 from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -15,10 +15,20 @@ import scanvec as sv
 
 from . import _topology
 from ._errors import InconsistencyError, InconsistencyWarning
-from ._input import affine_dimension, check_points, check_volume, exactly_scaled, first_copies
+from ._input import (
+    affine_dimension,
+    check_points,
+    check_seed,
+    check_volume,
+    exactly_scaled,
+    first_copies,
+    word_of,
+)
+from ._results import Result, check_array, check_complex, check_range, frozen
 from ._stats import InsertionStatistics, Progress, Statistics
 from .extrapolation import normalise, perturb
 from .extrapolation import triangulate as extrapolate
+from .subset import Subset
 
 if TYPE_CHECKING:
     import pyvista
@@ -31,8 +41,11 @@ ROBUSTNESS = ("exact", "perturb")
 CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
 
 
-class Delaunay:
+class Delaunay(Result):
     """The Delaunay triangulation of points in space.
+
+    The result stays as it was computed: its arrays are read-only, and its attributes cannot be assigned. Take
+    a copy of an array to change it, and `subset` for a part of the tetrahedra.
 
     Parameters
     ----------
@@ -58,7 +71,8 @@ class Delaunay:
         Working precision, float64 by default. Single precision is for experiments with
         ``robustness="perturb"``: it decides less.
     seed : int
-        Of the perturbation, or of the order of insertion (which does not change the result).
+        Of any size, not negative: of the perturbation, or of the order of insertion (which does not change
+        the result).
     callback : callable, optional
         Called with a `Progress` after every iteration, or stretch of 100,000 sites inserted. What it raises
         ends the triangulation.
@@ -105,11 +119,21 @@ class Delaunay:
     """
 
     points: np.ndarray
+    """The sites as given, float64 (n, 3)."""
     simplices: np.ndarray
+    """Tetrahedra, positively oriented, int32 (m, 4)."""
     neighbors: np.ndarray
+    """The tetrahedron opposite each vertex, `dt3d.OUTSIDE` (-1) beyond the hull, int32 (m, 4)."""
     iteration: np.ndarray
+    """The iteration, from 1, that found each tetrahedron, int32 (m,)."""
     duplicates: np.ndarray
+    """A site that was not used, and the equal site that was, int32 (k, 2)."""
     stats: Statistics | InsertionStatistics
+    """Counts and times."""
+
+    _arrays: ClassVar = ("points", "simplices", "neighbors", "iteration", "duplicates")
+    _others: ClassVar = ("stats", "_exact")
+    _derived: ClassVar = ("convex_hull", "vertex_neighbor_vertices", "_locator")
 
     def __init__(
         self,
@@ -125,14 +149,13 @@ class Delaunay:
     ) -> None:
         begun = time.perf_counter()
         working = _check_dtype(dtype)
-        _check_seed(seed)
+        seed = check_seed(seed)
         if callback is not None and not callable(callback):
             msg = f"callback must be callable, got {callback!r}"
             raise ValueError(msg)
         method = _check_method(method, robustness, machine, working)
         _check_threads(threads, method)
-        self.points = check_points(points)
-        self._exact = robustness == "exact"
+        self._keep(points=check_points(points), _exact=robustness == "exact")
 
         def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
@@ -154,22 +177,24 @@ class Delaunay:
         stretches = itertools.count(1)
         outcome = triangulate(
             exactly_scaled(self.points),
-            seed,
+            word_of(seed),
             threads,
             lambda left, made: report(next(stretches), left, made),
         )
-        self.simplices = outcome.simplices
-        self.neighbors = outcome.neighbors
-        self.duplicates = outcome.duplicates
-        self.iteration = np.ones(len(self.simplices), np.int32)
-        self.stats = InsertionStatistics(
-            walked=outcome.walked,
-            tested=outcome.tested,
-            created=outcome.created,
-            threads=outcome.threads,
-            deferred=outcome.deferred,
-            inconsistencies=0,
-            seconds=outcome.seconds | {"total": time.perf_counter() - begun},
+        self._keep(
+            simplices=outcome.simplices,
+            neighbors=outcome.neighbors,
+            duplicates=outcome.duplicates,
+            iteration=np.ones(len(outcome.simplices), np.int32),
+            stats=InsertionStatistics(
+                walked=outcome.walked,
+                tested=outcome.tested,
+                created=outcome.created,
+                threads=outcome.threads,
+                deferred=outcome.deferred,
+                inconsistencies=0,
+                seconds=outcome.seconds | {"total": time.perf_counter() - begun},
+            ),
         )
 
     def _extrapolate(
@@ -182,25 +207,30 @@ class Delaunay:
         begun: float,
     ) -> None:
         if exact:
-            used, self.duplicates = first_copies(self.points)
+            used, duplicates = first_copies(self.points)
             sites = exactly_scaled(self.points[used])
             _check_volume(sites)
         else:
-            sites, used, self.duplicates = _prepare(self.points, working, seed)
+            sites, used, duplicates = _prepare(self.points, working, seed)
         outcome = extrapolate(machine, sites, exact, report)
-        self.simplices = used[outcome.simplices].astype(np.int32)
-        self.neighbors = outcome.neighbors
-        self.iteration = outcome.iteration
+        self._keep(
+            simplices=used[outcome.simplices].astype(np.int32),
+            neighbors=outcome.neighbors,
+            iteration=outcome.iteration,
+            duplicates=duplicates,
+        )
         inconsistencies = 0 if exact else outcome.inconsistencies + self._count_faults(used)
-        self.stats = Statistics(
-            iterations=len(outcome.per_iteration),
-            face_expansions=outcome.face_expansions,
-            sites_searched=outcome.sites_searched,
-            exact_decisions=outcome.exact_decisions,
-            tetrahedra_per_iteration=tuple(outcome.per_iteration),
-            inconsistencies=inconsistencies,
-            seconds=outcome.seconds | {"total": time.perf_counter() - begun},
-            ledger=machine.ledger,
+        self._keep(
+            stats=Statistics(
+                iterations=len(outcome.per_iteration),
+                face_expansions=outcome.face_expansions,
+                sites_searched=outcome.sites_searched,
+                exact_decisions=outcome.exact_decisions,
+                tetrahedra_per_iteration=tuple(outcome.per_iteration),
+                inconsistencies=inconsistencies,
+                seconds=outcome.seconds | {"total": time.perf_counter() - begun},
+                ledger=machine.ledger,
+            )
         )
         if inconsistencies:
             msg = (
@@ -227,7 +257,7 @@ class Delaunay:
     @cached_property
     def convex_hull(self) -> np.ndarray:
         """Facets of the convex hull, int32 (h, 3), oriented outwards (counter-clockwise from outside)."""
-        return _topology.hull_facets(self.simplices, self.neighbors)
+        return frozen(_topology.hull_facets(self.simplices, self.neighbors))
 
     def find_simplex(self, xi: Any) -> np.ndarray:
         """The tetrahedron that contains each point, exactly; as `scipy.spatial.Delaunay.find_simplex`.
@@ -249,6 +279,21 @@ class Delaunay:
         """
         return self._locator.find(xi)
 
+    def subset(self, keep: Any) -> Subset:
+        """Some of the tetrahedra, as an object of its own, with `find_simplex`: holes, alpha shapes.
+
+        Parameters
+        ----------
+        keep : bool (m,), or int (k,)
+            A mask of the tetrahedra, or rows of `simplices` without repetition.
+
+        Raises
+        ------
+        ValueError
+            If it is neither.
+        """
+        return Subset(self, keep)
+
     @cached_property
     def _locator(self) -> Locator:
         from .location import Locator
@@ -263,7 +308,10 @@ class Delaunay:
         """
         from ._vertices import neighbors_of_vertices
 
-        return neighbors_of_vertices(self.simplices, len(self.points))
+        # it indexes without a check
+        check_range("simplices", self.simplices, 0, len(self.points))
+        indptr, indices = neighbors_of_vertices(self.simplices, len(self.points))
+        return frozen(indptr), frozen(indices)
 
     def verify(self) -> Verification:
         """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails.
@@ -279,6 +327,7 @@ class Delaunay:
             neighbors=self.neighbors,
             duplicates=self.duplicates,
             perturbed=self._exact,
+            oriented=True,
         )
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
@@ -289,6 +338,13 @@ class Delaunay:
         from ._mesh import to_pyvista
 
         return to_pyvista(self)
+
+    def _check(self, own: dict[str, Any]) -> None:
+        n, m = len(own["points"]), len(own["simplices"])
+        check_complex(own["points"], own["simplices"], own["neighbors"], dimension=3)
+        check_array("iteration", own["iteration"], np.int32, (m,))
+        check_array("duplicates", own["duplicates"], np.int32, (len(own["duplicates"]), 2))
+        check_range("duplicates", own["duplicates"], 0, n)
 
     def __repr__(self) -> str:
         return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
@@ -348,12 +404,6 @@ def _check_dtype(dtype: Any) -> np.dtype:
         msg = f"dtype must be float64 or float32, got {dtype!r}"
         raise ValueError(msg)
     return working
-
-
-def _check_seed(seed: Any) -> None:
-    if not isinstance(seed, int | np.integer) or seed < 0:
-        msg = f"seed must be an integer that is not negative, got {seed!r}"
-        raise ValueError(msg)
 
 
 def _prepare(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

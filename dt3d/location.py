@@ -16,7 +16,11 @@ import numba
 import numpy as np
 
 from ._compiling import announce_compilation
-from ._input import check_points
+from ._errors import InternalError
+from ._input import check_queries
+from ._memory import room_for_threads
+from ._results import check_complex, check_range, frozen
+from ._star import find_beside
 from ._topology import OUTSIDE
 from .insertion.order import along_curve
 from .predicates import work_array
@@ -24,7 +28,8 @@ from .predicates.filtered import orient3d
 from .predicates.filtered2d import orient2d
 
 PIECE = 4096  # points that a thread takes at a time
-LOST = -2  # a walk that went on too long: not in a triangulation with inconsistencies only
+AT_A_TIME = 2**22  # points that are put in order together
+LOST = -2  # a walk of more steps than there are simplices, which no Delaunay triangulation has
 
 
 @numba.njit(cache=True)
@@ -41,7 +46,10 @@ def _beyond(rows, simplices, t, k, q, w):
 
 @numba.njit(cache=True)
 def _walk(rows, simplices, neighbors, t, q, w):
-    """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended."""
+    """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended.
+
+    Each step goes to a simplex of whose sphere, perturbed, q has a lesser power, so none is visited twice.
+    """
     came, facets = OUTSIDE, simplices.shape[1]
     for step in range(len(simplices)):
         ahead = t
@@ -73,12 +81,16 @@ def _search(rows, simplices, q, w):
 
 @numba.njit(nogil=True, cache=True)
 def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
-    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended."""
+    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended, or
+    `LOST` where the first one was."""
     for i in order[begin:end]:
         rows[q] = points[i]
         out[i], t = _walk(rows, simplices, neighbors, t, q, w)
-        if out[i] < 0 and not convex:
-            out[i] = _search(rows, simplices, q, w)
+        if out[i] < 0:
+            if not convex:
+                out[i] = _search(rows, simplices, q, w)
+            elif out[i] == LOST:
+                return LOST
     return t
 
 
@@ -93,13 +105,21 @@ class Locator:
     convex : bool
         Whether the simplices are known to fill a convex hull. Otherwise all are searched for a point that no
         walk has found.
+
+    Raises
+    ------
+    ValueError
+        If an array is not of its dtype and shape, has an index out of range, or a site that is not finite:
+        walks do not check what they index with.
     """
 
     def __init__(
         self, sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, convex: bool = True
     ) -> None:
+        # first frozen, then checked, so that nothing can change between; and one type to numba
+        self.simplices, self.neighbors, self.convex = frozen(simplices), frozen(neighbors), convex
+        check_complex(sites, self.simplices, self.neighbors)
         announce_compilation()
-        self.simplices, self.neighbors, self.convex = simplices, neighbors, convex
         self.low, self.high = sites.min(axis=0), sites.max(axis=0)
         threads = os.cpu_count() or 1
         # predicates take rows of one array, so every thread has a row for the point at hand
@@ -114,18 +134,46 @@ class Locator:
         ------
         ValueError
             If the points are not finite, real and of shape (..., d).
+        InternalError
+            If a walk does not end.
         """
-        dimension = len(self.low)
-        given = xi if np.ma.isMaskedArray(xi) else np.asarray(xi)
-        if given.ndim < 1 or given.shape[-1] != dimension:
-            msg = f"points to be located must have shape (..., {dimension}), got {given.shape}"
-            raise ValueError(msg)
-        out = np.full(given.shape[:-1], OUTSIDE, np.int32)
-        if out.size:
-            points = check_points(given.reshape(-1, dimension), dimension)
-            within = np.flatnonzero(((points >= self.low) & (points <= self.high)).all(axis=1))
+        points, shape = check_queries(xi, len(self.low))
+        return self.find_checked(points).reshape(shape)
+
+    def find_checked(self, points: np.ndarray) -> np.ndarray:
+        """The same for finite float64 (k, d): int32 (k,). Of millions of points some are taken at a time."""
+        out = np.full(len(points), OUTSIDE, np.int32)
+        for begin in range(0, len(points), AT_A_TIME):
+            # a copy is contiguous, and nobody else changes it
+            part = np.array(points[begin : begin + AT_A_TIME], order="C")
+            within = np.flatnonzero(((part >= self.low) & (part <= self.high)).all(axis=1))
             with _ONE_AT_A_TIME:
-                self._find(points, within[_along_curve(points[within])], out.reshape(-1))
+                self._find(part, within[_along_curve(part[within])], out[begin : begin + AT_A_TIME])
+        return out
+
+    def find_kept(self, points: np.ndarray, found: np.ndarray, kept: np.ndarray) -> np.ndarray:
+        """For points that lie in the simplices found, the ones that contain them, too, and are kept.
+
+        Parameters
+        ----------
+        points : float64 (k, d)
+            Finite.
+        found : int32 (k,)
+            A simplex that contains each.
+        kept : bool (m,)
+
+        Returns
+        -------
+        int32 (k,)
+            Or `OUTSIDE`. It differs from found for points on a border only.
+        """
+        out = np.full(len(points), OUTSIDE, np.int32)
+        check_range("found", found, 0, len(self.simplices))
+        with _ONE_AT_A_TIME:
+            find_beside(
+                self.rows, self.simplices, self.neighbors, kept.copy(), len(self.rows) - 1,
+                np.array(points, order="C"), found, out, self.works[0],
+            )  # fmt: skip
         return out
 
     def _find(self, points: np.ndarray, order: np.ndarray, out: np.ndarray) -> None:
@@ -134,20 +182,37 @@ class Locator:
 
         def work(k: int) -> None:
             row = len(self.rows) - 1 - k
-            self.last[k] = _find(
+            last = _find(
                 self.rows, self.simplices, self.neighbors, self.convex, row, self.last[k],
                 points, order, bounds[k], bounds[k + 1], out, self.works[k],
             )  # fmt: skip
+            if last == LOST:
+                msg = (
+                    f"a walk to a point does not end after {len(self.simplices)} steps, one for each simplex"
+                )
+                raise InternalError(msg)
+            self.last[k] = last
 
         if threads == 1:
             work(0)
             return
-        with ThreadPoolExecutor(threads) as pool:
+        fewer = f"locate fewer than {2 * PIECE} points at a time"
+        with room_for_threads(fewer), ThreadPoolExecutor(threads) as pool:
             list(pool.map(work, range(threads)))
 
 
 # the rows for points at hand have one user
 _ONE_AT_A_TIME = threading.Lock()
+
+
+def _in_child() -> None:
+    """After a fork whoever had the lock is not there to give it back."""
+    global _ONE_AT_A_TIME
+    _ONE_AT_A_TIME = threading.Lock()
+
+
+if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
+    os.register_at_fork(after_in_child=_in_child)
 
 
 def _along_curve(points: np.ndarray) -> np.ndarray:

@@ -1,58 +1,47 @@
 """Proving that tetrahedra are the Delaunay triangulation of their sites, with exact arithmetic.
 
-If neighbouring tetrahedra lie on opposite sides of the facet they share, none has the far vertex of a
-neighbour inside its circumsphere, and what borders nothing is a convex surface that they fill once, then
-they are the Delaunay triangulation (B. Delaunay, Sur la sphere vide, 1934). That is what is checked, with
-exact signs.
+If tetrahedra that share a facet lie on opposite sides of it and none has the far vertex of a neighbour inside
+its circumsphere, and if what borders nothing is a surface, convex along every edge, that goes once around
+them, then they are the Delaunay triangulation of their vertices. `dt3d._proof` has the sentences that are
+checked and the theorem that they imply it; here are the exact signs that they need in space.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numba
 import numpy as np
 
 from . import _topology
-from ._input import exactly_scaled, first_copies
-from .predicates import orient3d, work_array
-from .predicates.filtered import in_sphere
-from .predicates.perturbed import inside
+from ._proof import Space, Verification, prove
+from .predicates.filtered import in_sphere, orient3d
+from .predicates.perturbed import inside, orientation_with
 
-
-@dataclass(frozen=True)
-class Verification:
-    """The outcome: true if all invariants hold; printed, one sentence for each.
-
-    Attributes
-    ----------
-    invariants : tuple of (str, int)
-        What must hold, and how often it does not.
-    """
-
-    invariants: tuple[tuple[str, int], ...]
-
-    def __bool__(self) -> bool:
-        return all(not broken for _, broken in self.invariants)
-
-    def __str__(self) -> str:
-        return "\n".join(
-            f"{'broken' if broken else 'holds'}: {what}" + (f" ({broken} times not)" if broken else "")
-            for what, broken in self.invariants
-        )
+__all__ = ["Verification", "verify"]
 
 
 def verify(
-    points: Any, simplices: Any, *, neighbors: Any = None, duplicates: Any = None, perturbed: bool = False
+    points: Any,
+    simplices: Any,
+    *,
+    neighbors: Any = None,
+    duplicates: Any = None,
+    perturbed: bool = False,
+    oriented: bool = False,
 ) -> Verification:
-    """Check every invariant of a Delaunay triangulation exactly.
+    """Prove with exact arithmetic that simplices are a Delaunay triangulation of points.
+
+    True if and only if they are: each site is a vertex or equals one, the tetrahedra cover the convex hull
+    without overlap and meet face to face, and no site is inside a circumsphere. The sentences of the outcome
+    imply that together, not each alone; `dt3d._proof` shows why. A sentence that has no meaning while an
+    earlier one is broken is reported as not checked.
 
     Parameters
     ----------
     points : float64 (n, 3)
     simplices : int (m, 4)
-        In positive orientation: det[b-a, c-a, d-a] > 0.
+        Of either orientation: those with det[b-a, c-a, d-a] < 0 are turned first, which is a remark.
     neighbors : int (m, 4), optional
         Checked where given: the k-th opposite the k-th vertex, -1 beyond the hull.
     duplicates : int (k, 2), optional
@@ -60,75 +49,42 @@ def verify(
     perturbed : bool
         Also decide cospherical sites: the triangulation must be the one that dt3d's symbolic perturbation
         gives.
+    oriented : bool
+        Also demand that all tetrahedra are positively oriented, as those of `dt3d.Delaunay` are.
 
     Raises
     ------
     ValueError
-        If a coordinate is not finite, or indices are out of range.
+        If points are not real, finite and of shape (n, 3), or simplices, neighbors or duplicates are not
+        integers, have another shape, or name what there is not.
+    MemoryError
+        If the system does not have the memory.
     """
-    points, simplices = np.asarray(points, np.float64), np.asarray(simplices, np.int64).reshape(-1, 4)
-    if len(simplices) and not 0 <= simplices.min() <= simplices.max() < len(points):
-        named = f"{simplices.min()} to {simplices.max()}"
-        msg = f"simplices name sites {named}, but there are {len(points)} points"
-        raise ValueError(msg)
-    sites = exactly_scaled(points)
-
-    volumes = orient3d(*(sites[simplices[:, k]] for k in range(4)))
-    adjacent, crowded = _adjacent(simplices)
-    checks = [
-        ("every site is a vertex, or a duplicate of one", _lost(points, simplices, duplicates)),
-        ("every tetrahedron is positively oriented", int((volumes <= 0).sum())),
-        ("every facet is shared by at most two tetrahedra", crowded),
-    ]
-    if neighbors is not None:
-        checks.append(("neighbors says which ones", int((np.asarray(neighbors) != adjacent).sum())))
-    hull = _topology.hull_facets(simplices, adjacent)
-    inside_spheres = _violations(sites, simplices, adjacent, perturbed)
-    checks += [
-        ("no site is inside the sphere across a facet", inside_spheres),
-        ("the hull is closed and convex along every edge", _dents(sites, hull)),
-        ("vertices - edges + facets - tetrahedra = 1 (Euler)", abs(_euler(simplices, adjacent) - 1)),
-    ]
-    return Verification(tuple(checks))
-
-
-def _lost(points: np.ndarray, simplices: np.ndarray, duplicates: Any) -> int:
-    """Sites that are in no tetrahedron and not listed, and listed ones that equal no vertex."""
-    if duplicates is None:
-        used, copies = first_copies(points)
-        named = np.isin(copies, simplices)
-        return len(np.setdiff1d(used, simplices)) - int((named[:, 0] & ~named[:, 1]).sum())
-    pairs = np.asarray(duplicates).reshape(-1, 2)
-    missing = np.setdiff1d(np.arange(len(points)), np.concatenate([simplices.ravel(), pairs[:, 0]]))
-    false = (points[pairs[:, 0]] != points[pairs[:, 1]]).any(axis=1) | ~np.isin(pairs[:, 1], simplices)
-    return len(missing) + int(false.sum())
-
-
-def _adjacent(simplices: np.ndarray) -> tuple[np.ndarray, int]:
-    """Neighbours by their common facets, int64 (m, 4), and the number of facets with more than two sides."""
-    facets = np.sort(simplices[:, _topology.OUTWARD].reshape(-1, 3), axis=1)
-    order = np.lexsort(facets.T)
-    same = (facets[order][1:] == facets[order][:-1]).all(axis=1)
-    adjacent = np.full(4 * len(simplices), _topology.OUTSIDE, np.int64)
-    first, second = order[:-1][same], order[1:][same]
-    adjacent[first], adjacent[second] = second // 4, first // 4
-    return adjacent.reshape(-1, 4), int((same[1:] & same[:-1]).sum())
-
-
-def _violations(sites: np.ndarray, simplices: np.ndarray, adjacent: np.ndarray, perturbed: bool) -> int:
-    t, k = np.nonzero(adjacent >= 0)
-    other = simplices[adjacent[t, k]]
-    # the vertex of the neighbour that the facet does not have
-    shared = (other[:, :, None] == simplices[t][:, None, :]).any(axis=2)
-    apex = other[np.arange(len(other)), shared.argmin(axis=1)]
-    return _count_inside(sites, simplices[t], apex, perturbed, work_array(sites))
+    return prove(
+        SPACE,
+        points,
+        simplices,
+        neighbors=neighbors,
+        duplicates=duplicates,
+        perturbed=perturbed,
+        oriented=oriented,
+    )
 
 
 @numba.njit(cache=True)
-def _count_inside(sites, tetrahedra, apex, perturbed, w):
+def _orientations(sites, simplices, w):
+    signs = np.empty(len(simplices), np.int8)
+    for i in range(len(simplices)):
+        v = simplices[i]
+        signs[i] = orient3d(sites, v[0], v[1], v[2], v[3], w)
+    return signs
+
+
+@numba.njit(cache=True)
+def _count_inside(sites, simplices, apex, perturbed, w):
     count = 0
     for i in range(len(apex)):
-        v = tetrahedra[i, 0], tetrahedra[i, 1], tetrahedra[i, 2], tetrahedra[i, 3]
+        v = simplices[i, 0], simplices[i, 1], simplices[i, 2], simplices[i, 3]
         if perturbed:
             count += inside(sites, v, apex[i], w)
         else:
@@ -136,28 +92,72 @@ def _count_inside(sites, tetrahedra, apex, perturbed, w):
     return count
 
 
-def _dents(sites: np.ndarray, hull: np.ndarray) -> int:
-    """Edges of the hull that are open, or along which it bends inwards."""
-    if not len(hull):
-        return 1
-    turns = [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
-    edges = np.concatenate([hull[:, t] for t in turns]).astype(np.int64)
-    forth, back = edges[:, 0] << 32 | edges[:, 1], edges[:, 1] << 32 | edges[:, 0]
-    order = np.argsort(forth)
-    at = np.minimum(np.searchsorted(forth[order], back), len(order) - 1)
-    paired = forth[order][at] == back
-    opposite = edges[order][at][paired, 2]
-    u, v, w = edges[paired].T
-    # seen from outside u, v, w turn to the left, so sites beyond the facet have negative orientation
-    bent = orient3d(sites[u], sites[v], sites[w], sites[opposite]) > 0
-    doubled = len(forth) - len(np.unique(forth))
-    return int((~paired).sum() + bent.sum() + doubled)
+@numba.njit(cache=True)
+def _count_containing(sites, simplices, w):
+    """Tetrahedra but the first that contain x: with x in place of any vertex they stay positive."""
+    count = 0
+    for i in range(1, len(simplices)):
+        v = simplices[i, 0], simplices[i, 1], simplices[i, 2], simplices[i, 3]
+        contained = True
+        for k in range(4):
+            sign = 0
+            for j in range(4):
+                sign = orientation_with(sites, v, k, simplices[0, j], w)
+                if sign != 0:
+                    break
+            if sign < 0:
+                contained = False
+                break
+        count += contained
+    return count
 
 
-def _euler(simplices: np.ndarray, adjacent: np.ndarray) -> int:
-    pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-    ends = np.sort(np.concatenate([simplices[:, p] for p in pairs]), axis=1)
-    edges = len(np.unique(ends[:, 0] << 32 | ends[:, 1]))
-    outer = int((adjacent < 0).sum())
-    facets = (4 * len(simplices) + outer) // 2
-    return len(np.unique(simplices)) - edges + facets - len(simplices)
+@numba.njit(cache=True)
+def _count_facing(sites, simplex, hull, w):
+    count = 0
+    for i in range(len(hull)):
+        for j in range(4):
+            # seen from outside a facet turns to the left: what is behind it has negative orientation
+            sign = orient3d(sites, hull[i, 0], hull[i, 1], hull[i, 2], simplex[j], w)
+            if sign != 0:
+                count += sign > 0
+                break
+    return count
+
+
+def _dents(sites: np.ndarray, hull: np.ndarray, w: np.ndarray) -> int:
+    edges = np.concatenate([hull[:, [0, 1]], hull[:, [1, 2]], hull[:, [2, 0]]])
+    opposite = np.concatenate([hull[:, 2], hull[:, 0], hull[:, 1]])
+    # none is left alone, since the hull is the boundary of a sum of tetrahedra
+    pairs, repeated = _topology.matched(edges)
+    if repeated:
+        return repeated
+    left, right = pairs.T
+    return _count_bent(sites, np.column_stack([edges[left], opposite[left], opposite[right]]), w)
+
+
+@numba.njit(cache=True)
+def _count_bent(sites, rows, w):
+    count = 0
+    for i in range(len(rows)):
+        # a vertex behind a facet, or on its plane
+        count += orient3d(sites, rows[i, 0], rows[i, 1], rows[i, 2], rows[i, 3], w) > 0
+    return count
+
+
+SPACE = Space(
+    words={
+        "simplex": "tetrahedron",
+        "simplices": "simplices",
+        "facet": "facet",
+        "a facet": "a facet",
+        "ball": "sphere",
+        "at every ridge": "along every edge",
+    },
+    outward=_topology.OUTWARD,
+    orientations=_orientations,
+    count_inside=_count_inside,
+    count_containing=_count_containing,
+    count_facing=_count_facing,
+    dents=_dents,
+)

@@ -14,6 +14,7 @@ from . import _local
 from ._checks import check_size
 from ._machine import SMALLEST_BLOCK, Machine, round_up
 from ._monoid import ONE_SIDED, Monoid
+from ._running import computing
 from ._vector import Vector
 
 
@@ -35,11 +36,12 @@ class Device(Machine):
         return jax.device_put(block)
 
     def to_numpy(self, v: Vector) -> np.ndarray:
-        return np.asarray(v._block)[: len(v)].copy()
+        with computing():
+            return np.asarray(v._block)[: len(v)].copy()
 
     def iota(self, n: int) -> Vector:
         check_size(n)
-        with jax.enable_x64(True):
+        with computing():
             return Vector(self, _iota(*self._shape(n)), n)
 
     def _item(self, block: jax.Array, n: Any, i: Any) -> jax.Array:

@@ -22,6 +22,7 @@ from ._checks import (
 )
 from ._monoid import ADD, MUL, Monoid
 from ._records import blocks_of, check_alike, is_vector, structure_of, vectors_of
+from ._running import computing
 from ._vector import Vector
 
 SMALLEST_BLOCK = 16384  # elements; shorter vectors share its compiled kernels
@@ -62,7 +63,7 @@ class Machine(abc.ABC):
             raise ValueError(msg)
         check_dtype(array.dtype)
         check_size(len(array))
-        with jax.enable_x64(True):
+        with computing():
             return Vector(self, self._load(array.astype(array.dtype.newbyteorder("="))), len(array))
 
     def full(self, n: int, value: Any, dtype: Any) -> Vector:
@@ -77,7 +78,7 @@ class Machine(abc.ABC):
         """
         check_dtype(np.dtype(dtype))
         check_size(n)
-        with jax.enable_x64(True):
+        with computing():
             shape = self._shape(n)
             return Vector(self, jax.device_put(np.full(shape, value, dtype)), n)
 
@@ -113,7 +114,7 @@ class Machine(abc.ABC):
         if not -n <= i < n:
             msg = f"index {i} is out of range for a vector of {n} elements"
             raise IndexError(msg)
-        with jax.enable_x64(True):
+        with computing():
             return np.asarray(self._item(v._block, np.int32(n), np.int32(i % n)))[()]
 
     @abc.abstractmethod
@@ -161,7 +162,7 @@ class Machine(abc.ABC):
                 raise TypeError(msg)
         check_alike(vectors)
         n = len(vectors[0])
-        with jax.enable_x64(True):
+        with computing():
             out = self._map(fn, blocks_of(args), blocks_of(where), blocks_of(otherwise), n)
             return self._wrap(out, n)
 
@@ -191,7 +192,7 @@ class Machine(abc.ABC):
             check_flags(heads, "scan: heads")
             check_alike([vectors[0], heads])
         n = len(vectors[0])
-        with jax.enable_x64(True):
+        with computing():
             out = self._scan(op, exclusive, backward, blocks_of(record), blocks_of(heads), n)
             return self._wrap(out, n)
 
@@ -216,7 +217,7 @@ class Machine(abc.ABC):
             msg = f"get: `otherwise` must be a scalar, got {type(otherwise).__name__}"
             raise TypeError(msg)
         n, m = len(index), len(vectors[0])
-        with jax.enable_x64(True):
+        with computing():
             place, loads, handled = self._routed("get", index, where, n, m)
             self._charge("get", n, loads, handled, vectors)
             out = jax.tree.map(lambda v: _local.take(v._block, place, otherwise), record, is_leaf=is_vector)
@@ -262,7 +263,7 @@ class Machine(abc.ABC):
         for v in vectors:
             op.check(v.dtype, "send")
         n, m = len(vectors[0]), len(places[0])
-        with jax.enable_x64(True):
+        with computing():
             place, loads, handled = self._routed("send", index, where, n, m)
             if op is _local.UNIQUE:
                 check_distinct(index, where, place, places[0]._block)

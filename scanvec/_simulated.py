@@ -18,6 +18,7 @@ from ._model import Model, check_model
 from ._monoid import Monoid
 from ._names import Names
 from ._operations import count_operations
+from ._running import computing
 from ._vector import Vector
 
 
@@ -101,12 +102,13 @@ class Simulated(Machine):
 
     def to_numpy(self, v: Vector) -> np.ndarray:
         vp = self.vp_ratio(len(v))
-        return np.asarray(v._block)[:, :vp].reshape(-1)[: len(v)].copy()
+        with computing():
+            return np.asarray(v._block)[:, :vp].reshape(-1)[: len(v)].copy()
 
     def iota(self, n: int) -> Vector:
         check_size(n)
         self._enter("map", n, 0)
-        with jax.enable_x64(True):
+        with computing():
             return Vector(self, _blocks.iota(self._shape(n), np.int32(self.vp_ratio(n))), n)
 
     def _item(self, block: jax.Array, n: Any, i: Any) -> jax.Array:

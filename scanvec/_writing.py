@@ -37,9 +37,20 @@ def written_aside(path: str | Path) -> Iterator[Path]:
     """
     target = check_writable(path)
     old = _status(target)
-    if old is not None and not stat.S_ISREG(old.st_mode):
-        yield target
-        return
+    try:
+        if old is None or stat.S_ISREG(old.st_mode):
+            with _aside(target, old) as aside:
+                yield aside
+        else:
+            yield target
+    except OSError as error:
+        whole = "" if old is None else "; the old file is as it was"
+        msg = f"cannot write {path}: {error.strerror or error}{whole}"
+        raise (OSError(msg) if error.errno is None else OSError(error.errno, msg)) from error
+
+
+@contextlib.contextmanager
+def _aside(target: Path, old: os.stat_result | None) -> Iterator[Path]:
     aside = target.with_name(f".{target.stem[:40]}.dt3d-{os.getpid()}-{secrets.token_hex(4)}{target.suffix}")
     with _removed_first(aside):
         try:
@@ -95,7 +106,8 @@ def _status(path: Path) -> os.stat_result | None:
 
 
 def _may_write(path: Path) -> bool:
-    return os.access(path, os.W_OK, effective_ids=os.access in os.supports_effective_ids)
+    wanted = os.W_OK | os.X_OK if path.is_dir() else os.W_OK
+    return os.access(path, wanted, effective_ids=os.access in os.supports_effective_ids)
 
 
 def _like(target: Path, aside: Path, old: os.stat_result) -> None:

@@ -10,6 +10,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rich.markup import escape
 from rich.table import Table
 
 from .. import _output as output
@@ -25,9 +26,15 @@ MARKERS = "osD^vP*X"
 def publish(measured: Sequence[Measured], out: Path, console: Console) -> None:
     """Print the table, and write ``bench.csv`` and ``bench.png`` to the folder ``out``."""
     console.print(table(measured))
-    write_csv(measured, out / f"{NAME}.csv")
-    draw(measured, out / f"{NAME}.png")
-    console.print(f"wrote {out / NAME}.csv and {out / NAME}.png", markup=False)
+    csv, png = written(out)
+    write_csv(measured, csv)
+    draw(measured, png)
+    console.print(f"wrote {csv} and {png}", markup=False)
+
+
+def written(out: Path) -> tuple[Path, Path]:
+    """The files that `publish` writes into a folder: the table and the picture."""
+    return out / f"{NAME}.csv", out / f"{NAME}.png"
 
 
 def machine() -> str:
@@ -76,10 +83,10 @@ def table(measured: Sequence[Measured]) -> Table:
 
 
 def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
-    names = [row.set_name, f"{row.sites:,}", row.label]
+    names = [escape(row.set_name), f"{row.sites:,}", row.label]
     seconds, times = row.seconds, ratio(row, rows)
     if seconds is None:
-        return [*names, row.ended, "", "", "", "", "", "0"]
+        return [*names, escape(row.ended), "", "", "", "", "", "0"]
     return [
         *names,
         f"{seconds:.3g}" if seconds < 100 else f"{seconds:.0f}",
@@ -88,7 +95,7 @@ def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
         f"{1e-6 * row.tetrahedra / seconds:.2f}",
         "" if row.memory is None else f"{row.memory / row.sites:,.0f}",
         "" if row.verified is None else "yes" if row.verified else "NO",
-        f"{len(row.runs)}" + (f", {row.ended}" if row.ended else ""),
+        f"{len(row.runs)}" + (f", {escape(row.ended)}" if row.ended else ""),
     ]
 
 
@@ -126,7 +133,9 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
         axes.plot(*zip(*points, strict=True) if points else ([], []), marker, label=library)
     axes.set_yscale("log")
     axes.set_ylabel("microseconds a site")
-    axes.set_xticks(range(len(sets)), [f"{rows[0].set_name}\n{rows[0].sites:,}" for rows in sets])
+    # a dollar in the name of a file begins no formula
+    names = [f"{rows[0].set_name}\n{rows[0].sites:,}".replace("$", r"\$") for rows in sets]
+    axes.set_xticks(range(len(sets)), names)
     axes.set_xlim(-0.5, len(sets) - 0.5)
     axes.grid(axis="y", alpha=0.3)
     axes.legend()

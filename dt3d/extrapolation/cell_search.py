@@ -20,6 +20,7 @@ import numpy as np
 
 import scanvec as sv
 
+from .._errors import InternalError
 from .boxes import Box, Grid, containment_box, contains, corners, difference_cell, empty_box, extend, volume
 from .buckets import Buckets, Cells
 from .points import Point
@@ -32,6 +33,7 @@ ROUNDS_BEFORE_ALL = 8
 EVERY_CELL = 2**20  # more cells than any grid has along a side
 # Queries that would take a round beyond so many requests wait for the next one; it bounds the memory.
 MOST_REQUESTS = 2**20
+TURNS_BETWEEN_LOOKS = 64  # at how many rounds the searches have taken, which a machine has to be asked
 
 
 class Search(NamedTuple):
@@ -57,13 +59,29 @@ def search(buckets: Buckets, queries: Any, first: tuple[Point, Point], question:
     answer = nothing_found(machine, m, buckets.sites.x.dtype)
     dead, new = machine.map(_begin, *first, cells.grid)
     state = Search(machine.iota(m), queries, answer, dead, new, machine.full(m, 0, np.int32))
-    searched = 0
+    searched = turns = 0
     while len(state.index):
+        turns += 1
+        if turns % TURNS_BETWEEN_LOOKS == 0:
+            _check_rounds(state, cells.grid)
         state, done, count = _round(buckets, cells, state, question, steps)
         searched += count
         answer = sv.permute(state.best, state.index, into=answer, where=done)
         state = sv.pack(state, ~done)
     return Answer(answer, searched)
+
+
+def _check_rounds(state: Search, grid: Grid) -> None:
+    """Raise InternalError where a search has taken more rounds than there can be.
+
+    The first one that waits goes on in every turn. Its dead box is never the same in two rounds: it grows by
+    a cell or more in one of the directions of the grid, or the search ends.
+    """
+    most = ROUNDS_BEFORE_ALL + int(grid.nx) + int(grid.ny) + int(grid.nz)
+    rounds = int(state.rounds.to_numpy().max())
+    if rounds > most:
+        msg = f"a search through cells has taken {rounds} rounds, where {most} open all of them"
+        raise InternalError(msg)
 
 
 def _round(

@@ -110,7 +110,7 @@ def bury(dead: DeadFaces, tetrahedra: Tetrahedron, first: int) -> tuple[DeadFace
     """
     machine = dead.tetrahedron.machine
     lost = 0
-    while True:
+    while True:  # at most as often as there are tetrahedra, each time with fewer
         faces, owner = _faces(tetrahedra)
         entries = len(dead.tetrahedron)
         filled, holders = dictionary.insert(dead.dictionary, machine.map(face_key, faces))

@@ -135,7 +135,7 @@ def _tournament(exact: ExactSites, faces: Face, rivals: Request) -> Request:
     """One site for each face that has any: the one inside whose sphere with the face no other is.
 
     Neighbours in the list of a face meet, and the winners go on: as many rounds as the logarithm of the
-    longest list.
+    longest list. Every round makes the list shorter.
     """
     while True:
         segments = sv.Segments.from_ids(rivals.query)

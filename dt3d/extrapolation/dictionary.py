@@ -16,6 +16,8 @@ import numpy as np
 
 import scanvec as sv
 
+from .._errors import InternalError
+
 EMPTY = 2**31 - 1  # a slot without entry: loses against every claim
 ABSENT = -1  # the entry number that a lookup gives for a key that is not there
 FEWEST_SLOTS = 1024
@@ -74,7 +76,9 @@ def look_up(dictionary: Dictionary, keys: Any) -> sv.Vector:
         return found
     slots = len(dictionary.table)
     probe = machine.map(_first_probe, machine.iota(m), keys, slots)
+    turn = 0
     while len(probe.index):
+        turn = _next_turn(turn, slots)
         entry = sv.get(dictionary.table, probe.slot)
         taken = entry != EMPTY
         other = sv.get(dictionary.keys, entry, where=taken)
@@ -88,7 +92,9 @@ def _claim(table: sv.Vector, entries: Any, keys: Any, first: int) -> tuple[sv.Ve
     machine, slots, m = table.machine, len(table), len(keys[0])
     holders = machine.full(m, ABSENT, np.int32)
     probe = machine.map(_first_probe, machine.iota(m), keys, slots)
+    turn = 0
     while len(probe.index):
+        turn = _next_turn(turn, slots)
         free = sv.get(table, probe.slot) == EMPTY
         table = sv.send(probe.index + first, probe.slot, sv.MIN, table, where=free)
         entry = sv.get(table, probe.slot)
@@ -96,6 +102,14 @@ def _claim(table: sv.Vector, entries: Any, keys: Any, first: int) -> tuple[sv.Ve
         holders = sv.permute(entry, probe.index, into=holders, where=same)
         probe = sv.pack(machine.map(_next_probe, probe, slots), ~same)
     return table, holders
+
+
+def _next_turn(turn: int, slots: int) -> int:
+    """In every turn a key comes to its slot or goes on to the next; at most half of them are taken."""
+    if turn == slots:
+        msg = f"a key has looked at all {slots} slots of its table"
+        raise InternalError(msg)
+    return turn + 1
 
 
 def _power_of_two(n: int) -> int:

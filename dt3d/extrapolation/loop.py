@@ -15,7 +15,8 @@ import numpy as np
 
 import scanvec as sv
 
-from .._errors import InconsistencyError
+from .._errors import InconsistencyError, InternalError
+from .._memory import require
 from . import fused
 from .buckets import Buckets, bucket
 from .dead_faces import (
@@ -42,6 +43,8 @@ from .start import both_sides, seeds
 # ("too many" in the paper's Table 3).
 GIVE_UP_SHARE = 0.02
 GIVE_UP_COUNT = 100
+
+BYTES_PER_SITE = 1500  # at least, as measured
 
 
 class _Clock:
@@ -79,9 +82,12 @@ def triangulate(
     ------
     InconsistencyError
         If too many tetrahedra contradict each other for the set to be finished.
+    InternalError
+        If ``exact``, and a tetrahedron contradicts another one.
     ValueError
         If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
+    require(f"the extrapolation of {len(sites)} sites", BYTES_PER_SITE * len(sites))
     if exact:
         check_magnitudes(sites)
         if isinstance(machine, sv.Device) and fused.serves(sites):
@@ -186,12 +192,12 @@ def _wrapped_facets(buckets: Buckets) -> Face:
 
 def _give_up_if_hopeless(out: Outcome, total: int, n: int, exact: bool) -> None:
     if exact and out.inconsistencies:
-        msg = (
-            f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude: "
-            f"this is an error of dt3d, please report it with the points"
-        )
-        raise InconsistencyError(msg, out.inconsistencies)
+        msg = f"{out.inconsistencies} of {total} tetrahedra contradict others, which exact decisions exclude"
+        raise InternalError(msg)
     # no triangulation of n sites has n^2 / 2 tetrahedra, so a run that goes round in circles ends too
+    if exact and 2 * total > n * n:
+        msg = f"{total} tetrahedra of {n} sites were found, more than any triangulation has"
+        raise InternalError(msg)
     if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total) or 2 * total > n * n:
         msg = (
             f"{out.inconsistencies} inconsistencies among {total} tetrahedra after "

@@ -89,7 +89,8 @@ def entry_test(admits: Callable) -> Callable:
 def descend(tree: Tree, queries: Any, test: Callable) -> Iterator[Request]:
     """The leaves that queries, a record of vectors of length m, enter, batch by batch.
 
-    ``test`` is an `entry_test`. Within a batch and from batch to batch the queries' numbers ascend.
+    ``test`` is an `entry_test`. Within a batch and from batch to batch the queries' numbers ascend. The list
+    of what waits ends: requests go down a level, or are cut in two.
     """
     machine = tree.low.x.machine
     m = len(jax.tree.leaves(queries)[0])

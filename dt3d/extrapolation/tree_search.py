@@ -17,10 +17,14 @@ import numpy as np
 
 import scanvec as sv
 
+from .._errors import InternalError
 from .buckets import Buckets
 from .points import Point
 from .search import LEAST, Answer, Best, Question, better_of, execute, nothing_found
 from .tree import FANOUT, descend, entry_test
+
+# Trials before the search does without a bound, which is the last one; more than any question has.
+MOST_TRIALS = 64
 
 
 class Bounded(NamedTuple):
@@ -69,6 +73,9 @@ def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
     answer = nothing_found(machine, m, buckets.sites.x.dtype)
     state, trial = _Search(machine.iota(m), queries, near.high), 0
     while len(state.index):
+        if trial == MOST_TRIALS:
+            msg = f"{len(state.index)} of {m} searches in a tree do not end without a bound"
+            raise InternalError(msg)
         bounded = machine.map(steps.bound, state.query, state.known, trial)
         best, count = _below(buckets, bounded, question)
         # what lies below a bound is complete, and nothing else is

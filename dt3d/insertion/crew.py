@@ -13,9 +13,12 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 
 import numpy as np
 
+from .._errors import InternalError
 from .kernel import (
     CREATED,
     DEFERRED,
+    ENDLESS_WALK,
+    FAULTS,
     FREE_COUNT,
     LAST,
     LENGTH,
@@ -36,6 +39,10 @@ STRETCH = 2048  # sites that a thread inserts before it looks whether to go on; 
 LEAST_PIECE = 1500  # sites of a round that are worth a thread
 PASSES = 2  # with threads, over what others deferred; one thread does the rest
 PIECE = 1 << 15  # rows of an array that are worth a task
+# doublings of the memory for one site, whose star has fewer tetrahedra than twice the number of sites; there
+# is memory for as many from the beginning
+MOST_GROWTHS = 3
+MARGIN = 8  # facets that have room in the scratch memory, but are not used
 PATIENCE = 0.05  # seconds between two looks at the progress
 
 
@@ -94,6 +101,11 @@ class Crew:
         """Insert sites, uint32, ascending.
 
         Raises what a thread or the report raises, with no thread left running.
+
+        Raises
+        ------
+        InternalError
+            If the tetrahedra are not what they must be; see `kernel.FAULTS`.
         """
         done = self.inserted + len(pending)
         for turn in range(PASSES):
@@ -104,11 +116,21 @@ class Crew:
             self.inserted = done - len(pending)
             self.deferred += len(pending)
         worker = self.workers[0]
+        growths = 0
         while len(pending):
+            before = len(pending)
             worker.claim(pending, 0, self.n)
             self._insert(worker, lambda: self.report(self._count([worker]), self.slots()))
+            if worker.state[DEFERRED]:
+                # it owns all sites, and more memory would not help
+                msg = f"a thread that is alone defers {worker.state[DEFERRED]} sites to others"
+                raise InternalError(msg)
             pending = worker.left()
             self.inserted = done - len(pending)
+            growths = growths + 1 if len(pending) == before else 0
+            if growths > MOST_GROWTHS:
+                msg = f"{self.store.capacity} tetrahedra are no room for one more site of {self.n}"
+                raise InternalError(msg)
             if len(pending):
                 self.store.grow()
 
@@ -142,6 +164,8 @@ class Crew:
         for part in (2, 4, 8):
             site = int(worker.todo[len(worker.todo) // part])
             start = locate(self.points, self.rows, self.store.mesh, start, site, self.slack, worker.work)
+            if start < 0:
+                raise InternalError(FAULTS[ENDLESS_WALK])
             corners = self.store.mesh[8 * start : 8 * start + 4].astype(np.int64)
             if ((corners != INFINITE) & ((corners - low) % self.n < length)).any():
                 break
@@ -183,7 +207,12 @@ class Crew:
                 self.reach,
                 worker.work,
             )
+            if short in FAULTS:
+                raise InternalError(FAULTS[short])
             if short == NEEDS_SCRATCH:
+                if worker.facets > 4 * store.capacity + MARGIN:
+                    msg = f"a cavity has more facets than the {store.capacity} tetrahedra"
+                    raise InternalError(msg)
                 worker.allocate(4 * worker.facets)
             elif short == NEEDS_SLOTS and not worker.take_slots(store):
                 worker.short = True

@@ -12,17 +12,20 @@ import numba
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
-def hilbert_keys(sites, low, scale, bits, index_bits, begin, end, keys):
+def hilbert_keys(sites, low, part, first, scale, bits, index_bits, begin, end, keys):
     """``keys[i] = position << index_bits | i`` of sites[i], int64, for i from begin to end - 1.
 
-    Positions have 3 ``bits`` bits, in the cube of side 2^bits / scale with the least corner ``low``. J.
-    Skilling: Programming the Hilbert curve. AIP Conference Proceedings 707, 2004.
+    Positions have 3 ``bits`` bits, in the cube with the least corner ``low`` and the side 2^bits / (part
+    first scale). ``part`` is a power of two with which no difference overflows, ``first`` one with which a
+    tiny difference becomes a normal number. All this rounds, but depends on the site's coordinates alone:
+    equal sites have equal positions. J. Skilling: Programming the Hilbert curve. AIP Conference Proceedings
+    707, 2004.
     """
     top = (1 << bits) - 1
     for i in range(begin, end):
-        x = min(int((sites[i, 0] - low[0]) * scale), top)
-        y = min(int((sites[i, 1] - low[1]) * scale), top)
-        z = min(int((sites[i, 2] - low[2]) * scale), top)
+        x = min(int((sites[i, 0] * part - low[0] * part) * first * scale), top)
+        y = min(int((sites[i, 1] * part - low[1] * part) * first * scale), top)
+        z = min(int((sites[i, 2] * part - low[2] * part) * first * scale), top)
         # undo the exchanges and inversions of the curve, from the greatest cube to the least
         q = 1 << (bits - 1)
         while q > 1:

@@ -16,15 +16,22 @@ import numba
 import numpy as np
 
 from .conflict import conflicts
-from .layout import DEAD
+from .layout import DEAD, INFINITE
 from .ownership import owns, owns_all
 from .prefetch import prefetch
-from .spheres import round_spheres
+from .spheres import flat, round_spheres
 from .star import NARROW, link_narrow, link_wide, number_vertices
 from .walk import walk
 
 # what `insert` returns when it could not go on
-DONE, NEEDS_SLOTS, NEEDS_SCRATCH = range(3)
+DONE, NEEDS_SLOTS, NEEDS_SCRATCH, ENDLESS_WALK, OCCUPIED, TORN_CAVITY, FLAT_STAR = range(7)
+# those of them that no right run has, and that end it
+FAULTS = {
+    ENDLESS_WALK: "a walk to a site visits more tetrahedra than there are",
+    OCCUPIED: "a site is where another one is already",
+    TORN_CAVITY: "the facets around a cavity do not close to a sphere",
+    FLAT_STAR: "a site makes a tetrahedron that is flat or turned",
+}
 
 # places of `state`, one for each thread
 (NEXT, STOP, DEFERRED) = range(3)  # in `todo`
@@ -85,13 +92,25 @@ def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavi
     return size, facets, tested
 
 
+@numba.njit(inline="always", cache=True, error_model="numpy")
+def _occupied(rows, mesh, t, x, y, z):
+    """Whether a place in tetrahedron t is that of a vertex; which would be one of the four of t."""
+    occupied = False
+    for k in range(4):
+        v = numba.int64(mesh[8 * t + k])
+        if v != INFINITE and rows[4 * v] == x and rows[4 * v + 1] == y and rows[4 * v + 2] == z:
+            occupied = True
+    return occupied
+
+
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, slack, reach, w):
     """Insert the sites todo[state[NEXT]], ... before state[STOP] that the thread can; see `ownership`.
 
     Those that it cannot go to the front of ``todo``, state[DEFERRED] of them. Returns `DONE`, or what is
-    short; then nothing is half done: supply it and call again. ``points``, ``rows`` and ``labels`` are
-    views of one array, so are ``spheres`` and ``radii``; see `layout`.
+    short; then nothing is half done: supply it and call again. Or one of `FAULTS`, when the tetrahedra are of
+    no more use. ``points``, ``rows`` and ``labels`` are views of one array, so are ``spheres`` and ``radii``;
+    see `layout`.
     """
     cavity, rim, outer, near, at, rel, edges, keys, values = scratch
     p, q, r, slots = rim[0], rim[1], rim[2], rim[3]
@@ -108,15 +127,21 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
         walked += steps
         if not found:
             # the next walk would begin where this one stopped, and stop there, too
-            for i in range(2, 2 * BESIDE + 2):
+            for i in range(2, 2 * BESIDE + 2 if steps >= 0 else 0):
                 beside = site + (i >> 1 if i & 1 else -(i >> 1))
                 if 0 <= beside < n and owns(beside, low, length, n) and labels[8 * beside + 7] != 0:
                     last = numba.int64(labels[8 * beside + 7]) - 1
                     last, found, steps = walk(points, rows, mesh, last, site, low, length, n, slack, w)
                     walked += steps
                     break
+            if steps < 0:
+                result = ENDLESS_WALK
+                break
         size, facets = 0, -1
         if found:
+            if _occupied(rows, mesh, last, x, y, z):
+                result = OCCUPIED
+                break
             size, facets, tests = _search(
                 points, mesh, spheres, radii, last, site, x, y, z, low, length, n, cavity, rim, outer, w
             )
@@ -137,6 +162,10 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
             continue
 
         count = number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at)
+        # Euler's relation of a triangulated sphere; number 0 is the infinite vertex's, used or not
+        if facets != 2 * count - 4 and facets != 2 * count - 6:
+            result = TORN_CAVITY
+            break
         for f in range(facets):
             # the slots of the cavity first, which are in the cache
             if f < size:
@@ -167,9 +196,13 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
             free_count += 1
         if count <= 1 << NARROW:
             link_narrow(mesh, p, q, r, slots, facets, edges)
-        else:
-            link_wide(mesh, p, q, r, slots, facets, keys, values)
-        round_spheres(xs, ys, zs, lengths, p, q, r, slots, facets, x, y, z, reach, spheres, radii)
+        elif not link_wide(mesh, p, q, r, slots, facets, keys, values):
+            result = TORN_CAVITY
+            break
+        unproved = round_spheres(xs, ys, zs, lengths, p, q, r, slots, facets, x, y, z, reach, spheres, radii)
+        if unproved > 0 and flat(points, radii, site, p, q, r, near, slots, facets, w):
+            result = FLAT_STAR
+            break
         last = numba.int64(slots[0])
         created += facets
         following += 1

@@ -9,16 +9,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._errors import DegenerateInputError
+from .._memory import require, room_for_threads
 from .compaction import count_finite, number_finite, write_finite
 from .crew import LEAST_PIECE, Crew, available_cores
 from .first import first_tetrahedron
 from .kernel import FRESH, FRESH_END
-from .layout import DEAD, aligned
+from .layout import DEAD, MOST_SLOTS, aligned
 from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
-from .store import LARGEST_BLOCK, Store
+from .store import LARGEST_BLOCK, SLOT, Store
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
 SLOTS_PER_SITE = 8
+LEAST_SLOTS_PER_SITE = 5  # sites on a sphere have three tetrahedra and two ghosts each
+ROWS = 64  # bytes: a site along the curve, and its places there and in the input
 STRETCH = 100_000  # sites between two reports
 SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
@@ -54,9 +57,13 @@ def triangulate(
     ------
     DegenerateInputError
         If the sites span no volume.
+    MemoryError
+        If the system has no room for the threads or the tetrahedra.
     """
     most = max(1, len(sites) // (8 * LEAST_PIECE)) if threads is None else threads
     threads = min(most, available_cores())
+    least, reserved = (ROWS + SLOT * slots for slots in (LEAST_SLOTS_PER_SITE, SLOTS_PER_SITE))
+    require(f"the triangulation of {len(sites)} sites", least * len(sites), reserved * len(sites))
     n = 0
     reported = 0
 
@@ -67,7 +74,7 @@ def triangulate(
             report(n - inserted, slots)
 
     seconds = {}
-    with Crew(threads, each_stretch) as crew:
+    with room_for_threads(), Crew(threads, each_stretch) as crew:
         begun = time.perf_counter()
         original, rows, duplicates = _in_order(sites, crew)
         n = len(original)
@@ -77,7 +84,8 @@ def triangulate(
 
         begun = time.perf_counter()
         block = min(LARGEST_BLOCK, 64 + n // threads)
-        store = Store(first, SLOTS_PER_SITE * n + 64 + threads * block, block)
+        slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
+        store = Store(first, slots, block, LEAST_SLOTS_PER_SITE * n)
         crew.begin(rows, bounds(sites), store, len(first))
         begin = 0
         for end in ends:
@@ -127,6 +135,7 @@ def _first(points: np.ndarray) -> np.ndarray:
 def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
+    require(f"the result of {slots} tetrahedra", 8 * slots)  # their numbers now, and their iterations later
     number = np.empty(slots, np.int32)
     pieces: dict[int, int] = {}
 

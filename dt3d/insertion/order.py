@@ -13,14 +13,18 @@ from collections.abc import Callable
 import numba
 import numpy as np
 
+from .._errors import InternalError
 from .curve import hilbert_keys
 
 ROUND_BITS = 2  # a site is in the last round unless as many bits of its hash are zero, and so on
 SMALLEST_ROUND = 64
 MOST_BITS = 21  # of a coordinate's place on the curve
 SHORT_RUN = 128  # sites in one cell that are sorted by coordinates; more are placed on a finer curve
-LEAST_EXTENT = 2.0**-900  # whose reciprocal does not overflow
-GREATEST_EXTENT = 2.0**900
+# Curves within cells within cells. Sites are fewer than 2^31, so places have at least 10 bits per coordinate,
+# and a cell, with what rounding lets in, is less than 2^-9 of the box around. A box is smaller than 2^1025,
+# and no two floating-point numbers are nearer than 2^-1074.
+MOST_LEVELS = (1025 + 1074) // 9 + 2
+LEAST_EXTENT = 2.0**-900  # whose reciprocal, times 2^21, does not overflow
 
 
 def along_curve(
@@ -29,28 +33,53 @@ def along_curve(
     """The rows of sites float64 (n, 3) along a Hilbert curve, int64 (n,); equal sites together, by index.
 
     ``in_pieces(work, n)`` calls ``work(begin, end)`` for all of range(n), in pieces, at the same time
-    perhaps.
+    perhaps. The place on the curve is rounded, but a function of the coordinates alone, so equal sites have
+    one place. What shares a place is put on a curve of its own, or sorted by the coordinates themselves.
+
+    Raises
+    ------
+    InternalError
+        If cells lie within cells beyond all bounds.
     """
+    order = np.arange(len(sites))
+    crowded = [(0, len(sites), 0)]
+    while crowded:
+        begin, end, level = crowded.pop()
+        if level > MOST_LEVELS:
+            msg = f"{end - begin} sites share a cell after {level} subdivisions"
+            raise InternalError(msg)
+        part = order[begin:end]
+        places, runs = _along_one_curve(sites if level == 0 else sites[part], in_pieces)
+        part[:] = part[places]
+        crowded += [(begin + i, begin + j, level + 1) for i, j in runs.tolist()]
+    return order
+
+
+def _along_one_curve(
+    sites: np.ndarray, in_pieces: Callable[[Callable[[int, int], None], int], None]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sites along the curve through their box, int64 (n,); and the runs in it, int64 (k, 2), from begin to
+    end - 1, that share a cell and are sorted by index alone."""
     n = len(sites)
     low, high = bounds(sites)
+    part = 1.0
     with np.errstate(over="ignore"):
         extent = float((high - low).max())
-    if not extent < GREATEST_EXTENT:
-        return np.lexsort(sites.T[::-1])
+    if extent == np.inf:
+        part = 0.25
+        extent = float((high * part - low * part).max())
     if not extent:
-        return np.arange(n)
-    if extent < LEAST_EXTENT:
-        return along_curve(np.ldexp(sites - low, -int(np.frexp(extent)[1])), in_pieces)
+        return np.arange(n), np.empty((0, 2), np.int64)
+    first = 1.0 if extent >= LEAST_EXTENT else 1 / LEAST_EXTENT
     index_bits = max(1, int(n - 1).bit_length())
     bits = min(MOST_BITS, (63 - index_bits) // 3)
+    scale = 2.0**bits / (extent * first)
     keys = np.empty(n, np.int64)
-    in_pieces(lambda i, j: hilbert_keys(sites, low, 2.0**bits / extent, bits, index_bits, i, j, keys), n)
+    in_pieces(lambda i, j: hilbert_keys(sites, low, part, first, scale, bits, index_bits, i, j, keys), n)
     keys.sort()
     long_runs = np.empty((n // SHORT_RUN + 1, 2), np.int64)
     count = _sort_short_runs(sites, keys, index_bits, long_runs)
-    for i, j in long_runs[:count]:
-        keys[i:j] = keys[i:j][along_curve(sites[keys[i:j]], in_pieces)]
-    return keys
+    return keys, long_runs[:count]
 
 
 @numba.njit(nogil=True, cache=True)

@@ -24,6 +24,9 @@ d^2 (6 u) can do.
 
 ``reach`` is a bound of the coordinates' magnitude, 1 if they are scaled, and infinite if they cannot be.
 
+A star has tetrahedra of positive volume only, so D is positive. What has a sphere here has been proved to be
+so by the bound of D; `flat` proves it for the others.
+
 No product under- or overflows to any effect for coordinates below 1 in magnitude and the ranges checked
 here. Where a bound fails, and for ghosts, whose coordinates are NaN, nothing is proved: the interval is
 (-1, inf).
@@ -33,6 +36,8 @@ from __future__ import annotations
 
 import numba
 import numpy as np
+
+from ..predicates.filtered import orient3d
 
 U = 2.0**-53
 LEAST = 2.0**-110  # of m^2 and of what becomes a float32, which has its full precision above 2^-126
@@ -44,8 +49,10 @@ SLACK = 2.0**-21
 def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, spheres, radii):
     """Store the spheres of tetrahedra (site, p[f], q[f], r[f]) in slots[f], for f below ``facets``.
 
-    ``x``, ``y``, ``z``, ``squared``: the vertices relative to the site, NaN for the infinite one.
+    ``x``, ``y``, ``z``, ``squared``: the vertices relative to the site, NaN for the infinite one. Returns for
+    how many nothing is proved.
     """
+    open_ones = 0
     for f in range(facets):
         i, j, k = p[f], q[f], r[f]
         px, py, pz, p2 = x[i], y[i], z[i], squared[i]
@@ -63,7 +70,7 @@ def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, s
         m2 = max(max(p2, q2), r2)
         m, radius = np.sqrt(m2), np.sqrt(u2)
         d_error = (100.0 * U) * (m2 * m)
-        rest = abs(d) - d_error
+        rest = d - d_error
         error = ((160.0 * U) * (m2 * m2) + radius * d_error) / rest + (8.0 * U) * radius + (4.0 * U) * reach
         low = max(radius - 2.0 * error, 0.0)
         high = radius + 2.0 * error
@@ -76,3 +83,17 @@ def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, s
             np.float32(low * low * (1.0 - SLACK)) if good & (low * low > LEAST) else np.float32(-1.0)
         )
         radii[8 * t + 7] = np.float32(high * high * (1.0 + SLACK)) if good else np.float32(np.inf)
+        open_ones += not good
+    return open_ones
+
+
+@numba.njit(cache=True)
+def flat(points, radii, site, p, q, r, near, slots, facets, w):
+    """Whether one of these tetrahedra that have no sphere and no infinite vertex is not positive; exact."""
+    for f in range(facets):
+        i, j, k = p[f], q[f], r[f]
+        if radii[8 * numba.int64(slots[f]) + 7] == np.inf and i > 0 and j > 0 and k > 0:
+            a, b, c = numba.int64(near[i]), numba.int64(near[j]), numba.int64(near[k])
+            if orient3d(points, site, a, b, c, w) <= 0:
+                return True
+    return False

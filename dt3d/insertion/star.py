@@ -16,8 +16,9 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
 
     ``near`` gets the vertices, the infinite one first, ``at`` a facet of each, ``rel`` their coordinates
     relative to x, y, z and the squared lengths. A label is valid if ``near`` agrees with it, so nothing
-    has to be cleared.
+    has to be cleared. 0 where the facets have more vertices than a triangulated sphere, F / 2 + 2 of them.
     """
+    most = (facets >> 1) + 3
     count = 1
     for f in range(facets):
         for i in range(3):
@@ -26,6 +27,8 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
             if v != INFINITE:
                 label = numba.int64(labels[8 * v + 6])
                 if label >= count or numba.int64(near[label]) != v:
+                    if count == most:
+                        return 0
                     label = count
                     near[count] = v
                     at[count] = f
@@ -61,7 +64,11 @@ def link_narrow(mesh, p, q, r, slots, facets, edges):
 
 @numba.njit(cache=True, error_model="numpy")
 def link_wide(mesh, p, q, r, slots, facets, keys, values):
-    """The same for any number of vertices, in a hash table of a power of two slots, over 3 * facets."""
+    """The same for any number of vertices, in a hash table of a power of two slots, over 6 * facets.
+
+    Half of the slots stay free, so every search comes to its key or to a free slot. Whether all edges were
+    found, each with its reverse.
+    """
     size = 64
     while size < 6 * facets:
         size *= 2
@@ -80,8 +87,11 @@ def link_wide(mesh, p, q, r, slots, facets, keys, values):
             key = (key & 0xFFFFFFFF) << 32 | key >> 32
             h = _first_slot(key, size)
             while keys[h] != key:
+                if keys[h] < 0:
+                    return False
                 h = (h + 1) & (size - 1)
             mesh[8 * numba.int64(slots[f]) + 5 + i] = values[h]
+    return True
 
 
 @numba.njit(inline="always", cache=True)

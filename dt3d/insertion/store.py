@@ -6,12 +6,15 @@ import threading
 
 import numpy as np
 
+from .._memory import require
 from ..predicates import work_array
 from .kernel import DEFERRED, FREE, FREE_COUNT, FRESH, FRESH_END, LENGTH, LOW, NEXT, SITES, STATE
 from .layout import DEAD, INFINITE, MOST_SLOTS, aligned
 from .star import NARROW
 
 LARGEST_BLOCK = 1 << 14  # slots that a thread takes at a time
+SLOT = 64  # bytes
+CHECKED = 1 << 20  # slots that are taken between two looks at the memory there is
 SCRATCH = 1 << 10  # facets of a cavity; grown where it is not enough
 
 
@@ -21,7 +24,12 @@ class Store:
     Memory that has never been written is not resident, so slots may be plenty.
     """
 
-    def __init__(self, first: np.ndarray, slots: int, block: int) -> None:
+    def __init__(self, first: np.ndarray, slots: int, block: int, assured: int = 0) -> None:
+        """Room for a number of slots, of which so many have been ``assured`` by a look at the memory there
+        is."""
+        if slots > MOST_SLOTS:
+            raise ValueError(_too_many(slots))
+        self.assured = assured
         self.mesh = aligned(8 * slots, np.uint32)
         self.spheres = aligned(4 * slots, np.float64)
         self.capacity = slots
@@ -51,25 +59,45 @@ class Store:
         """A block of slots for one thread: begin and end, equal where memory ran out."""
         with self.lock:
             begin = self.used
+            if begin >= self.assured:
+                # resident only when it is written, which is now; address space it has
+                end = min(begin + CHECKED, self.capacity)
+                require(f"a triangulation of more than {begin} tetrahedra", SLOT * (end - begin), reserved=0)
+                self.assured = end
             self.used = min(begin + self.block, self.capacity)
             return begin, self.used
 
     def grow(self) -> None:
-        """Twice the memory, with what is there; for when no thread inserts.
+        """Twice the memory, or as much as can be named, with what is there; for when no thread inserts.
 
         Raises
         ------
         ValueError
-            If the slots could not be named by 32 bits.
+            If no more slots can be named by 32 bits.
+        MemoryError
+            If the system does not have it.
         """
-        if 2 * self.capacity > MOST_SLOTS:
-            msg = f"more than {self.capacity} tetrahedra are needed, which 32-bit numbers cannot name"
-            raise ValueError(msg)
-        self.capacity *= 2
+        if self.capacity >= MOST_SLOTS:
+            raise ValueError(_too_many(self.capacity + 1))
+        capacity = min(2 * self.capacity, MOST_SLOTS)
+        # one half is copied while the old one is there, then the other
+        require(
+            f"a triangulation of more than {self.capacity} tetrahedra",
+            SLOT // 2 * self.used + SLOT * self.block,
+            SLOT // 2 * (2 * capacity - self.capacity),
+        )
+        self.capacity = capacity
         for name, width, dtype in (("mesh", 8, np.uint32), ("spheres", 4, np.float64)):
             old, new = getattr(self, name), aligned(width * self.capacity, dtype)
             new[: width * self.used] = old[: width * self.used]
             setattr(self, name, new)
+
+
+def _too_many(slots: int) -> str:
+    return (
+        f"{slots} tetrahedra or more are needed, and 32-bit numbers name at most {MOST_SLOTS} = 2^30; "
+        f"triangulate fewer sites at a time"
+    )
 
 
 class Worker:

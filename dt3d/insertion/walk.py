@@ -29,8 +29,12 @@ def walk(points, rows, mesh, t, site, low, length, n, slack, w):
     ``slack`` is a bound of what underflow can do to a determinant.
 
     Also whether it got there, or stopped where every way on leaves what the thread may read; and the steps.
+    -1 steps: it went on where no walk does. Each step goes to a tetrahedron of whose sphere, perturbed, the
+    site has a lesser power (H. Edelsbrunner: An acyclicity theorem for cell complexes in d dimensions,
+    Combinatorica 10, 1990), so none is visited twice, and steps are fewer than the slots.
     """
     steps = 0
+    most = len(mesh) >> 3
     came = -1
     whole = length == n
     found = whole or owns_one(mesh, t, low, length, n)
@@ -40,7 +44,7 @@ def walk(points, rows, mesh, t, site, low, length, n, slack, w):
                 t = numba.int64(mesh[8 * t + 4 + k]) >> 2
                 break
     moving = found
-    while moving:
+    while moving and steps < most:
         moving = False
         found = True
         if (
@@ -70,11 +74,14 @@ def walk(points, rows, mesh, t, site, low, length, n, slack, w):
                             moving = True
                             break
                         found = False
+    if moving:
+        return t, False, -1
     return t, found, steps
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def locate(points, rows, mesh, t, site, slack, w):
-    """The tetrahedron that contains a site, or a ghost; for when no thread inserts."""
-    t, _, _ = walk(points, rows, mesh, t, site, 0, 1, 1, slack, w)
-    return t
+    """The tetrahedron that contains a site, or a ghost; for when no thread inserts. -1 if the walk does not
+    end."""
+    t, found, _ = walk(points, rows, mesh, t, site, 0, 1, 1, slack, w)
+    return t if found else -1

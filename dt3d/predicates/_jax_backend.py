@@ -8,6 +8,8 @@ from typing import Any
 import jax
 import numpy as np
 
+from scanvec._running import computing
+
 from . import determinants
 from ._mapped import in_blocks
 from .integers import limbs_of
@@ -21,7 +23,7 @@ def signs(predicate: str, cases: np.ndarray) -> np.ndarray:
     # the next power of two, so that few lengths are compiled
     room = 1 << max(count - 1, 0).bit_length()
     digits = np.pad(digits, [(0, 0), (0, 0), (0, 0), (0, room - count)])
-    with jax.enable_x64(True):
+    with computing():
         return np.asarray(_signs(predicate, digits))[:count].astype(np.int8)
 
 

@@ -29,20 +29,21 @@ def inside_tied(points, v, site, w):
 
     The lifted site is below the hyperplane of the lifted vertices iff e_p < sum of l_i e_i, with its
     barycentric coordinates l_i. Of the five in lexicographic order, each e infinitely larger than the next,
-    the first whose coefficient is not zero decides.
+    the first whose coefficient is not zero decides; the site's own is negative.
     """
     done = -1
-    while True:
+    for _ in range(4):
         first, least = 4, site
         for i in range(4):
             if (done < 0 or before(points, done, v[i])) and before(points, v[i], least):
                 first, least = i, v[i]
         if first == 4:
-            return False
+            break
         sign = orientation_with(points, v, first, site, w)
         if sign != 0:
             return sign > 0
         done = least
+    return False
 
 
 @numba.njit(cache=True)

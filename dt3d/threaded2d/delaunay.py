@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 import time
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
 from .._compiling import announce_compilation
-from .._input import check_points, exactly_scaled
+from .._input import check_points, check_seed, exactly_scaled, word_of
+from .._results import Result, check_array, check_complex, check_range
 from .plan import LOCATIONS, METHODS, ORDERS, Options, triangulate
+from .statistics import Statistics
 from .subdivision import SUBDIVISIONS
+from .subset import Subset, border
 
 if TYPE_CHECKING:
     import pyvista
@@ -23,13 +26,14 @@ if TYPE_CHECKING:
 MOST_THREADS = 64
 
 
-class Delaunay:
+class Delaunay(Result):
     """The Delaunay triangulation of points in the plane, by threads that insert sites into one structure.
 
     J. Kohout, I. Kolingerova, J. Zara: Practically oriented parallel Delaunay triangulation in E2 for
     computers with shared memory. Computers & Graphics 28, 2004. The result is exact, and the symbolic
     perturbation makes it unique: every method, number of threads, order and interleaving gives the same
-    triangles.
+    triangles. It stays as it was computed: arrays are read-only and attributes cannot be assigned. Take a
+    copy of an array to change it, and `subset` for a part of the triangles.
 
     Parameters
     ----------
@@ -54,7 +58,7 @@ class Delaunay:
         stretches of the space-filling curve (with order="brio"). A thread that is done takes of what others
         have left.
     seed : int
-        Of the random order and subdivision.
+        Not negative, of any size: of the random order and subdivision.
 
     Attributes
     ----------
@@ -87,6 +91,25 @@ class Delaunay:
     ((2, 3), [[4, 0]], True)
     """
 
+    points: np.ndarray
+    """The sites as given, float64 (n, 2)."""
+    triangles: np.ndarray
+    """Counter-clockwise, int32 (m, 3)."""
+    neighbors: np.ndarray
+    """The triangle opposite each vertex, `dt3d.OUTSIDE` (-1) beyond the hull, int32 (m, 3)."""
+    thread: np.ndarray
+    """The thread that made each triangle, int16 (m,)."""
+    inserted_by: np.ndarray
+    """The thread that inserted each site, -1 for duplicates, int16 (n,)."""
+    duplicates: np.ndarray
+    """A site that was not used, and the equal site that was, int32 (k, 2)."""
+    stats: Statistics
+    """Counts and times."""
+
+    _arrays: ClassVar = ("points", "triangles", "neighbors", "thread", "inserted_by", "duplicates")
+    _others: ClassVar = ("stats",)
+    _derived: ClassVar = ("simplices", "convex_hull", "_locator")
+
     def __init__(
         self,
         points2d: Any,
@@ -111,7 +134,7 @@ class Delaunay:
                 raise ValueError(msg)
         _check_count("threads", threads, 1)
         _check_count("queue_length", queue_length, 2)
-        _check_count("seed", seed, 0)
+        seed = word_of(check_seed(seed))
         if threads is not None and threads > MOST_THREADS:
             msg = f"threads must be at most {MOST_THREADS}, got {threads}"
             raise ValueError(msg)
@@ -126,25 +149,32 @@ class Delaunay:
             raise ValueError(msg)
 
         announce_compilation()
-        self.points = check_points(points2d, 2)
-        sites = exactly_scaled(self.points)
+        points = check_points(points2d, 2)
+        sites = exactly_scaled(points)
         options = _options(len(sites), method, threads, order, location, queue_length, subdivision, seed)
         prepared = time.perf_counter()
         outcome = triangulate(sites, options)
-        self.triangles = outcome.triangles
-        self.neighbors = outcome.neighbors
-        self.thread = outcome.maker
-        self.inserted_by = outcome.inserted_by
-        self.duplicates = outcome.duplicates
-        self.stats = outcome.stats
+        self._keep(
+            points=points,
+            triangles=outcome.triangles,
+            neighbors=outcome.neighbors,
+            thread=outcome.maker,
+            inserted_by=outcome.inserted_by,
+            duplicates=outcome.duplicates,
+            stats=outcome.stats,
+        )
         self.stats.seconds["input"] = prepared - begun
         self.stats.seconds["total"] = time.perf_counter() - begun
+
+    @property
+    def simplices(self) -> np.ndarray:
+        """The same as `triangles`, under the name that SciPy has and that holds in space, too."""
+        return self.triangles
 
     @cached_property
     def convex_hull(self) -> np.ndarray:
         """Edges of the convex hull, int32 (h, 2), counter-clockwise about the triangles."""
-        t, k = np.nonzero(self.neighbors < 0)
-        return np.column_stack([self.triangles[t, (k + 1) % 3], self.triangles[t, (k + 2) % 3]])
+        return border(self.triangles, self.neighbors)
 
     def find_simplex(self, xi: Any) -> np.ndarray:
         """The triangle that contains each point, exactly; as `scipy.spatial.Delaunay.find_simplex`.
@@ -166,6 +196,21 @@ class Delaunay:
         """
         return self._locator.find(xi)
 
+    def subset(self, keep: Any) -> Subset:
+        """Some of the triangles, as an object of its own, with `find_simplex`, for example with holes.
+
+        Parameters
+        ----------
+        keep : bool (m,), or int (k,)
+            A mask of the triangles, or rows of `triangles` without repetition.
+
+        Raises
+        ------
+        ValueError
+            If it is neither.
+        """
+        return Subset(self, keep)
+
     @cached_property
     def _locator(self) -> Locator:
         from ..location import Locator
@@ -177,7 +222,14 @@ class Delaunay:
         fails."""
         from .verification import verify
 
-        return verify(self.points, self.triangles, self.neighbors, self.duplicates)
+        return verify(
+            self.points,
+            self.triangles,
+            neighbors=self.neighbors,
+            duplicates=self.duplicates,
+            perturbed=True,
+            oriented=True,
+        )
 
     def to_pyvista(self) -> pyvista.PolyData:
         """The triangles as a PyVista surface with cell data "thread".
@@ -193,6 +245,14 @@ class Delaunay:
         from .picture import plot
 
         return plot(self, ax, **options)
+
+    def _check(self, own: dict[str, Any]) -> None:
+        n, m = len(own["points"]), len(own["triangles"])
+        check_complex(own["points"], own["triangles"], own["neighbors"], dimension=2)
+        check_array("thread", own["thread"], np.int16, (m,))
+        check_array("inserted_by", own["inserted_by"], np.int16, (n,))
+        check_array("duplicates", own["duplicates"], np.int32, (len(own["duplicates"]), 2))
+        check_range("duplicates", own["duplicates"], 0, n)
 
     def __repr__(self) -> str:
         return f"<dt3d.threaded2d.Delaunay: {len(self.points)} sites, {len(self.triangles)} triangles>"
@@ -241,7 +301,7 @@ def queue_for(n: int) -> int:
 
 
 def _check_count(name: str, value: Any, least: int) -> None:
-    if value is None and name != "seed":
+    if value is None:
         return
     if not isinstance(value, int | np.integer) or isinstance(value, bool) or value < least:
         msg = f"{name} must be an integer of at least {least}, got {value!r}"

@@ -57,14 +57,19 @@ def _hilbert(x, y):
 
 
 @numba.njit(nogil=True, cache=True)
-def _keys(points, low_x, low_y, scale, bits, index_bits, out, begin):
+def _keys(points, low_x, low_y, half, scale, bits, index_bits, out, begin):
     """Places along the curve, of 2^bits cells a side, with the numbers of the sites in the low bits; of as
-    many sites from ``begin`` on as there is room for."""
+    many sites from ``begin`` on as there is room for.
+
+    Differences are rounded, alike for equal coordinates: equal sites get equal places, and no more is built
+    upon it. ``half`` is 1, or 0.5 where differences would overflow.
+    """
     top = (1 << bits) - 1
     finer = _COORDINATE_BITS - bits
+    low_x, low_y = low_x * half, low_y * half
     for i in range(begin, begin + len(out)):
-        x = min(np.int64((points[i, 0] - low_x) * scale), top)
-        y = min(np.int64((points[i, 1] - low_y) * scale), top)
+        x = min(np.int64((points[i, 0] * half - low_x) * scale), top)
+        y = min(np.int64((points[i, 1] * half - low_y) * scale), top)
         place = _hilbert(x << finer, y << finer) >> np.uint64(2 * finer)
         out[i - begin] = (place << np.uint64(index_bits)) | np.uint64(i)
 
@@ -76,22 +81,25 @@ def _extent(points):
     for i in range(len(points)):
         low_x, high_x = min(low_x, points[i, 0]), max(high_x, points[i, 0])
         low_y, high_y = min(low_y, points[i, 1]), max(high_y, points[i, 1])
-    return low_x, low_y, max(high_x - low_x, high_y - low_y)
+    half = 1.0 if max(high_x - low_x, high_y - low_y) < np.inf else 0.5
+    return low_x, low_y, half, max(high_x * half - low_x * half, high_y * half - low_y * half)
 
 
 def along_curve(points: np.ndarray, threads: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Sites sorted along Hilbert's curve, and pairs (a later copy, the first one): int64 (m,), int32 (k, 2).
 
-    ``points`` are float64 (n, 2), finite, with no difference of coordinates that overflows. Of equal sites
-    the one of least index is kept.
+    ``points`` are float64 (n, 2), finite. Of equal sites the one of least index is kept. Whether two are
+    equal is decided by comparing coordinates; cells may be crowded, where a set has all magnitudes of float64
+    even with all sites but a few.
     """
     n = len(points)
     index_bits = max(1, int(n - 1).bit_length())
     bits = min(_COORDINATE_BITS, (64 - index_bits) // 2)
-    low_x, low_y, extent = _extent(points)
-    # the extent may be subnormal, so the sites are scaled in two steps
+    low_x, low_y, half, extent = _extent(points)
+    # 2^bits / extent may overflow where a set is smaller: that is one cell. Where sites have been scaled, it
+    # has no area
     scale = 2.0**bits / extent if extent > 2.0**-900 else 0.0
-    keys = sort_runs(threads, n, partial(_keys, points, low_x, low_y, scale, bits, index_bits))
+    keys = sort_runs(threads, n, partial(_keys, points, low_x, low_y, half, scale, bits, index_bits))
     index = (keys & np.uint64((1 << index_bits) - 1)).astype(np.int64)
     keys >>= np.uint64(index_bits)
     same = keys[1:] == keys[:-1]

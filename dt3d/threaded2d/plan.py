@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .._memory import require
 from ..predicates import work_array
 from . import batch, circumcircle, optimistic, pessimistic, sequential, star, steps
 from .compaction import compact
@@ -52,6 +53,10 @@ from .threads import together
 METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
 ORDERS = ("brio", "random")
 LOCATIONS = ("dag", "walk")
+
+# Bytes a site, as measured: what is written, and with what is only reserved.
+WRITTEN_IN_PLACE, RESERVED_IN_PLACE = 190, 210
+WRITTEN_WITH_HISTORY, RESERVED_WITH_HISTORY = 600, 800
 
 
 @dataclass(frozen=True)
@@ -101,7 +106,14 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     ------
     DegenerateInputError
         If they span no area.
+    MemoryError
+        If the system does not have the memory.
     """
+    require(
+        f"the triangulation of {len(points)} sites in the plane",
+        len(points) * (WRITTEN_IN_PLACE if options.in_place else WRITTEN_WITH_HISTORY),
+        len(points) * (RESERVED_IN_PLACE if options.in_place else RESERVED_WITH_HISTORY),
+    )
     seconds = {}
     begun = time.perf_counter()
     # what never waits gains nothing from more threads than processors

@@ -22,6 +22,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from .._memory import require
 from .atomics import add, give_way, padded
 
 INFINITE = -1
@@ -129,6 +130,8 @@ class Store:
     def grow(self) -> None:
         """Half as many nodes again. No thread may be running.
 
+        MemoryError if the system does not have the memory, ValueError if the nodes could not be named.
+
         One insertion flips fewer edges than there are, and insertions at the same time flip different ones;
         so `reserve` is what those that began below the limit may need beyond it.
         """
@@ -139,8 +142,11 @@ class Store:
                 f"use method='auto', which keeps none"
             )
             raise ValueError(msg)
-        longer = np.zeros((soft + self.reserve, 8), np.int32)
         used = int(self.shared[USED, 0])
+        node = self.nodes.itemsize * self.nodes.shape[1]
+        what = f"a history of more than {used} triangles"
+        require(what, node * max(used, soft - used), node * (soft + self.reserve))
+        longer = np.zeros((soft + self.reserve, 8), np.int32)
         longer[:used] = self.nodes[:used]
         self.nodes = longer
         self.shared[SOFT_LIMIT, 0] = soft

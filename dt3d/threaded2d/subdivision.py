@@ -35,7 +35,8 @@ def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.
     if subdivision == "x-slabs":
         out[np.argsort(points[:, 0], kind="stable")] = slots
     else:
-        out[np.argsort((points**2).sum(axis=1), kind="stable")] = slots
+        # of halves, since the distance itself may be beyond what float64 has
+        out[np.argsort(np.hypot(points[:, 0] / 2, points[:, 1] / 2), kind="stable")] = slots
     return out
 
 

@@ -19,6 +19,8 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     ------
     BaseException
         What the first task to fail has raised, or what interrupted this thread.
+    MemoryError
+        If the system does not start as many threads.
     """
     results: list[Any] = [None] * len(tasks)
     failures: list[BaseException] = []
@@ -38,7 +40,7 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     started: list[threading.Event] = []
     try:
         for k in range(len(tasks)):
-            threading.Thread(target=run, args=(k,), daemon=True).start()
+            start(threading.Thread(target=run, args=(k,), daemon=True), k, len(tasks))
             started.append(ended[k])
         for event in started:
             while not event.wait(LOOK):
@@ -51,6 +53,20 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     if failures:
         raise failures[0]
     return results
+
+
+def start(thread: threading.Thread, k: int, threads: int) -> None:
+    """Start the k-th of so many threads, or raise a MemoryError: Python has a RuntimeError for that."""
+    try:
+        thread.start()
+    except RuntimeError as error:
+        if "start new thread" not in str(error):
+            raise
+        msg = (
+            f"thread {k + 1} of {threads} could not be started: there is no memory for its stack, or no more "
+            f"threads are allowed; use fewer threads, or raise the limits (ulimit -v, -u)"
+        )
+        raise MemoryError(msg) from error
 
 
 def briefly(tasks: Sequence[Callable[[], Any]]) -> None:

@@ -1,9 +1,9 @@
 """Proving that triangles are the Delaunay triangulation of their sites, with exact arithmetic.
 
-If all triangles turn to the left, no two neighbours have the far vertex of one inside the circle of the
-other, and what borders nothing is one convex polygon, then they are the Delaunay triangulation (B. Delaunay,
-Sur la sphere vide, 1934). Ties are checked too: the result must be the one that the symbolic perturbation
-defines.
+If triangles that share an edge lie on opposite sides of it and none has the far vertex of a neighbour inside
+its circumcircle, and if what borders nothing is one polygon, convex at every vertex, that goes once around
+them, then they are the Delaunay triangulation of their vertices. `dt3d._proof` has the sentences that are
+checked and the theorem that they imply it; here are the exact signs that they need in the plane.
 """
 
 from __future__ import annotations
@@ -13,116 +13,143 @@ from typing import Any
 import numba
 import numpy as np
 
-from .._input import exactly_scaled
-from ..predicates import work_array
-from ..predicates.filtered2d import orient2d
-from ..verification import Verification
+from .. import _topology
+from .._proof import Space, Verification, prove
+from ..predicates.filtered2d import in_circle, orient2d
 from .geometry import conflicts
 
+__all__ = ["Verification", "verify"]
 
-def verify(points: Any, triangles: Any, neighbors: Any, duplicates: Any) -> Verification:
-    """Check every invariant of a 2D Delaunay triangulation exactly.
+# Row k: the edge opposite the k-th vertex of a positive triangle, which has the triangle on its left.
+OUTWARD = np.array([[1, 2], [2, 0], [0, 1]])
+
+
+def verify(
+    points: Any,
+    triangles: Any,
+    *,
+    neighbors: Any = None,
+    duplicates: Any = None,
+    perturbed: bool = False,
+    oriented: bool = False,
+) -> Verification:
+    """Prove with exact arithmetic that triangles are a Delaunay triangulation of points.
+
+    True if and only if they are: each site is a vertex or equals one, the triangles cover the convex hull
+    without overlap and meet edge to edge, and no site is inside a circumcircle. The sentences of the outcome
+    imply that together, not each alone; `dt3d._proof` shows why. A sentence that has no meaning while an
+    earlier one is broken is reported as not checked.
 
     Parameters
     ----------
     points : float64 (n, 2)
-    triangles, neighbors : int (m, 3)
-    duplicates : int (k, 2)
+    triangles : int (m, 3)
+        Of either orientation: those that turn to the right are turned first, which is a remark.
+    neighbors : int (m, 3), optional
+        Checked where given: the k-th opposite the k-th vertex, -1 beyond the hull.
+    duplicates : int (k, 2), optional
+        Sites that need no triangle, and the equal ones that have; found here if left out.
+    perturbed : bool
+        Also decide cocircular sites: the triangulation must be the one that the symbolic perturbation gives.
+    oriented : bool
+        Also demand that all triangles turn to the left, as those of `dt3d.threaded2d.Delaunay` do.
 
     Raises
     ------
     ValueError
-        If triangles name sites that there are not.
+        If points are not real, finite and of shape (n, 2), or triangles, neighbors or duplicates are not
+        integers, have another shape, or name what there is not.
+    MemoryError
+        If the system does not have the memory.
     """
-    points, triangles = np.asarray(points, np.float64), np.asarray(triangles, np.int64).reshape(-1, 3)
-    if len(triangles) and not 0 <= triangles.min() <= triangles.max() < len(points):
-        msg = (
-            f"triangles name sites {triangles.min()} to {triangles.max()}, but there are {len(points)} points"
-        )
-        raise ValueError(msg)
-    sites = np.ascontiguousarray(exactly_scaled(points))
-    w = work_array(sites)
-    adjacent, crowded = _adjacent(triangles)
-    turned, inside = _count_broken(sites, triangles, adjacent, w)
-    t, k = np.nonzero(adjacent < 0)
-    hull = np.column_stack([triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]])
-    used = np.unique(triangles)
-    edges = (3 * len(triangles) + len(hull)) // 2
-    return Verification(
-        (
-            ("every site is a vertex, or a duplicate of one", _lost(points, used, duplicates)),
-            ("every triangle turns to the left", turned),
-            ("every edge is shared by at most two triangles", crowded),
-            ("neighbors says which ones", int((np.asarray(neighbors) != adjacent).sum())),
-            ("no site is inside the circle across an edge, ties decided by the perturbation", inside),
-            ("the hull is one convex polygon", _dents(sites, hull, w)),
-            ("vertices - edges + triangles = 1 (Euler)", abs(len(used) - edges + len(triangles) - 1)),
-        )
+    return prove(
+        PLANE,
+        points,
+        triangles,
+        neighbors=neighbors,
+        duplicates=duplicates,
+        perturbed=perturbed,
+        oriented=oriented,
     )
 
 
-def _lost(points: np.ndarray, used: np.ndarray, duplicates: Any) -> int:
-    """Sites that are in no triangle and not listed, and listed ones that equal no vertex."""
-    pairs = np.asarray(duplicates).reshape(-1, 2)
-    named = np.zeros(len(points), np.int64)
-    named[used] += 1
-    np.add.at(named, pairs[:, 0], 1)
-    false = (points[pairs[:, 0]] != points[pairs[:, 1]]).any(axis=1) | ~np.isin(pairs[:, 1], used)
-    return int((named != 1).sum() + false.sum())
-
-
-def _adjacent(triangles: np.ndarray) -> tuple[np.ndarray, int]:
-    """Neighbours by their common edges, int64 (m, 3), and the number of edges with more than two sides."""
-    ends = np.sort(triangles[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
-    key = ends[:, 0] << 32 | ends[:, 1]
-    order = np.argsort(key, kind="stable")
-    same = key[order][1:] == key[order][:-1]
-    adjacent = np.full(3 * len(triangles), -1, np.int64)
-    first, second = order[:-1][same], order[1:][same]
-    adjacent[first], adjacent[second] = second // 3, first // 3
-    return adjacent.reshape(-1, 3), int((same[1:] & same[:-1]).sum())
+@numba.njit(cache=True)
+def _orientations(sites, triangles, w):
+    signs = np.empty(len(triangles), np.int8)
+    for i in range(len(triangles)):
+        signs[i] = orient2d(sites, triangles[i, 0], triangles[i, 1], triangles[i, 2], w)
+    return signs
 
 
 @numba.njit(cache=True)
-def _count_broken(points, triangles, adjacent, w):
-    """Triangles that do not turn to the left, and pairs of neighbours that the circle test forbids."""
-    turned = inside = 0
-    for t in range(len(triangles)):
-        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        if orient2d(points, a, b, c, w) <= 0:
-            turned += 1
-            continue
-        for k in range(3):
-            u = adjacent[t, k]
-            if u < 0:
-                continue
-            for j in range(3):
-                far = triangles[u, j]
-                if far != a and far != b and far != c:
-                    inside += conflicts(points, a, b, c, far, w)
-    return turned, inside
+def _count_inside(sites, triangles, apex, perturbed, w):
+    count = 0
+    for i in range(len(apex)):
+        a, b, c = triangles[i, 0], triangles[i, 1], triangles[i, 2]
+        if perturbed:
+            count += conflicts(sites, a, b, c, apex[i], w)
+        else:
+            count += in_circle(sites, a, b, c, apex[i], w) > 0
+    return count
+
+
+@numba.njit(cache=True)
+def _side(sites, triangle, a, b, w):
+    """Where x lies from the line ab: the first vertex of the triangle that is not on it tells."""
+    for j in range(3):
+        sign = orient2d(sites, a, b, triangle[j], w)
+        if sign != 0:
+            return sign
+    return 0
+
+
+@numba.njit(cache=True)
+def _count_containing(sites, triangles, w):
+    count = 0
+    for i in range(1, len(triangles)):
+        a, b, c = triangles[i, 0], triangles[i, 1], triangles[i, 2]
+        count += (
+            _side(sites, triangles[0], a, b, w) > 0
+            and _side(sites, triangles[0], b, c, w) > 0
+            and _side(sites, triangles[0], c, a, w) > 0
+        )
+    return count
+
+
+@numba.njit(cache=True)
+def _count_facing(sites, triangle, hull, w):
+    count = 0
+    for i in range(len(hull)):
+        count += _side(sites, triangle, hull[i, 0], hull[i, 1], w) < 0
+    return count
 
 
 def _dents(sites: np.ndarray, hull: np.ndarray, w: np.ndarray) -> int:
-    """Vertices where the border is not one line that turns to the left or goes straight on."""
-    if not len(hull):
-        return 1
-    following = np.full(len(sites), -1, np.int64)
-    following[hull[:, 0]] = hull[:, 1]
-    at, around = hull[0, 0], 0
-    while around < len(hull):
-        at, around = following[at], around + 1
-        if at < 0 or at == hull[0, 0]:
-            break
-    if at != hull[0, 0] or around != len(hull):
-        return abs(len(hull) - around) + 1
-    return int(_right_turns(sites, hull, following, w))
+    ends = np.concatenate([hull[:, 1], hull[:, 0]])
+    others = np.concatenate([hull[:, 0], hull[:, 1]])
+    begins = np.arange(len(ends)) >= len(hull)
+    # none is left alone, since the hull is the boundary of a sum of triangles
+    pairs, repeated = _topology.matched(ends[:, None], begins)
+    if repeated:
+        return repeated
+    before, after = pairs.T  # the edge that ends at the vertex, and the one that begins there
+    corners = np.column_stack([others[before], ends[before], others[after]])
+    return int((_orientations(sites, corners, w) < 0).sum())
 
 
-@numba.njit(cache=True)
-def _right_turns(points, hull, following, w):
-    count = 0
-    for i in range(len(hull)):
-        a, b = hull[i, 0], hull[i, 1]
-        count += orient2d(points, a, b, following[b], w) < 0
-    return count
+PLANE = Space(
+    words={
+        "simplex": "triangle",
+        "simplices": "triangles",
+        "facet": "edge",
+        "a facet": "an edge",
+        "ball": "circle",
+        "at every ridge": "at every vertex",
+    },
+    outward=OUTWARD,
+    orientations=_orientations,
+    count_inside=_count_inside,
+    count_containing=_count_containing,
+    count_facing=_count_facing,
+    dents=_dents,
+)

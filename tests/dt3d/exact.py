@@ -1,6 +1,13 @@
 """An independent oracle: what a Delaunay triangulation is, decided in integers of any size.
 
 `validate(tri)` is what every test of a triangulation ends in. It shares no code with the library.
+
+Why it is enough. Tetrahedra are positive and lie on the two sides of their common facets, so how many of
+them cover a point changes at hull facets only. These turn their backs to the first centroid, whose
+surroundings are covered once. Seen from there no ray meets the hull twice, or it would have to enter again,
+through a facet that turns its face. So the tetrahedra tile what the hull bounds, which is convex since its
+edges are; and a tiling of a convex body with empty spheres across facets has empty spheres (B. Delaunay,
+1934).
 """
 
 from __future__ import annotations
@@ -61,9 +68,7 @@ def validate(tri) -> None:
     assert (orient(*corners) > 0).all(), "a tetrahedron is flat or turned"
     check_locally_delaunay(tri, points, corners)
     check_hull(tri, points, facet_of)
-    total = orient(*corners).sum()
-    a, b, c = (points[tri.convex_hull[:, k]] for k in range(3))
-    assert det3(a, b, c).sum() == total, "the tetrahedra do not fill the hull"
+    check_once(tri, points, corners)
 
 
 def check_indices(tri) -> None:
@@ -79,11 +84,16 @@ def check_indices(tri) -> None:
 
 
 def check_neighbors(tri) -> dict:
-    """Every facet is shared by the two tetrahedra that `neighbors` names, or on the hull."""
+    """Every facet has two tetrahedra, one on each side, which `neighbors` names, or is on the hull."""
     seen: dict = {}
+    turning: dict = {}
     for t, vertices in enumerate(tri.simplices.tolist()):
         for k, facet in enumerate(FACETS):
-            seen.setdefault(frozenset(vertices[j] for j in facet), []).append((t, k))
+            corners = [vertices[j] for j in facet]
+            seen.setdefault(frozenset(corners), []).append((t, k))
+            least = corners.index(min(corners))
+            from_outside = tuple(corners[least:] + corners[:least])
+            assert turning.setdefault(from_outside, t) == t, "two tetrahedra are on one side of a facet"
     for sides in seen.values():
         assert len(sides) <= 2
         (t, k), (u, j) = sides[0], sides[-1]
@@ -120,3 +130,20 @@ def check_hull(tri, points: np.ndarray, facet_of: dict) -> None:
         opposite = across[v, u]
         # seen from outside u, v, w turn to the left, so a site beyond the facet has negative orientation
         assert orient(points[u], points[v], points[w], points[opposite]) <= 0, "the hull is not convex"
+
+
+def check_once(tri, points: np.ndarray, corners: list) -> None:
+    """The centroid of the first tetrahedron is in no other one, and behind every hull facet."""
+    assert len(tri.simplices)
+    first = sum(points[v] for v in tri.simplices[0])  # four times the centroid
+    quadruple = [4 * c for c in corners]
+    least, greatest = np.minimum.reduce(quadruple), np.maximum.reduce(quadruple)
+    near = np.flatnonzero(((least <= first) & (first <= greatest)).all(axis=1))
+    near = near[near > 0]
+    a, b, c, d = (q[near] for q in quadruple)
+    x = np.broadcast_to(first, a.shape)
+    sides = [orient(x, b, c, d), orient(a, x, c, d), orient(a, b, x, d), orient(a, b, c, x)]
+    covering = np.logical_and.reduce([s >= 0 for s in sides]) if len(near) else np.zeros(0, bool)
+    assert not covering.any(), "a point is covered more than once"
+    a, b, c = (4 * points[tri.convex_hull[:, k]] for k in range(3))
+    assert (orient(a, b, c, np.broadcast_to(first, a.shape)) < 0).all(), "the hull is seen from outside"

@@ -30,11 +30,11 @@ def with_value(value):
         (POINTS + 1j, "real numbers.*complex128"),
         (POINTS.astype(str), "real numbers.*<U"),
         (POINTS > 0.5, "real numbers.*bool"),
-        (POINTS.astype(object), "real numbers.*object"),
+        (np.where(POINTS > 0.9, None, POINTS), "real numbers; row .* is None, of type NoneType"),
         (np.ma.masked_array(POINTS, POINTS > 0.9), "masked array"),
         (with_value(np.nan), "2 rows have NaN or infinity, the first is row 4"),
         (with_value(np.inf), "2 rows have NaN or infinity, the first is row 4"),
-        ((POINTS * 2**60).astype(np.int64), r"integers beyond 2\^53"),
+        ((POINTS * 2**60).astype(np.int64) | 1, "row 0, column 0 of points is .*float64 does not hold"),
     ],
 )
 def test_what_is_no_set_of_points(points, message):
@@ -75,7 +75,9 @@ def test_sets_without_volume(points, dimension, words, method):
         ({"dtype": "float16"}, "dtype must be float64 or float32, got 'float16'"),
         ({"dtype": "no"}, "dtype must be float64 or float32, got 'no'"),
         ({"machine": "gpu"}, "machine must be a scanvec machine"),
-        ({"seed": -1}, "seed"),
+        ({"seed": -1}, "seed must be an integer that is not negative, of any size, got -1"),
+        ({"seed": True}, "seed must be an integer that is not negative, of any size, got True"),
+        ({"seed": 1.0}, "seed must be an integer that is not negative, of any size, got 1.0"),
         ({"callback": 3}, "callback must be callable"),
     ],
 )

@@ -180,3 +180,19 @@ def test_neighbors_of_vertices(sites):
     found = [(v, int(u)) for v in range(len(tri.points)) for u in indices[indptr[v] : indptr[v + 1]]]
     assert found == sorted(joined)
     assert indptr[-1] == indptr[-2]  # the last site is a copy
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_walk_in_circles_is_an_internal_error(dimension):
+    points = np.random.default_rng(2).random((9000, dimension))
+    tri = (threaded2d.Delaunay if dimension == 2 else dt3d.Delaunay)(points)
+    simplices = tri.triangles if dimension == 2 else tri.simplices
+    beyond = points[simplices].mean(axis=1)[5:]
+    circle = np.repeat(((np.arange(len(simplices)) + 1) % 5)[:, None], dimension + 1, axis=1).astype(np.int32)
+    broken = location.Locator(points, simplices, circle)
+    for queries in (beyond[:1], beyond):  # by one thread, and by several
+        with pytest.raises(dt3d.InternalError, match="a walk to a point does not end.*please report"):
+            broken.find(queries)
+    # where simplices may be missing all are searched
+    patient = location.Locator(points, simplices, circle, convex=False)
+    np.testing.assert_array_equal(patient.find(beyond[:3]), [5, 6, 7])

@@ -93,3 +93,35 @@ def test_an_interrupt_stops_all_threads_within_a_second(method):
     while threading.active_count() > before and time.perf_counter() - sent[0] < 1:
         time.sleep(0.001)  # the threads have ended, but for what Python does after them
     assert threading.active_count() == before
+
+
+@pytest.mark.parametrize("method", ["auto", "batch", "circumcircle", "pessimistic", "optimistic"])
+def test_a_thread_that_cannot_start_is_a_memory_error_and_the_next_call_works(method, monkeypatch):
+    start, started = threading.Thread.start, []
+
+    def refuse(thread):
+        started.append(thread)
+        if len(started) % 3 == 0:
+            msg = "can't start new thread"  # what Python says where there is no memory for a stack
+            raise RuntimeError(msg)
+        start(thread)
+
+    before = threading.active_count()
+    points = uniform(60_000)
+    with monkeypatch.context() as patch:
+        patch.setattr(threading.Thread, "start", refuse)
+        with pytest.raises(MemoryError, match=r"thread \d of \d could not be started.*use fewer threads"):
+            threaded2d.Delaunay(points, method=method, threads=4)
+    assert threading.active_count() == before
+    assert len(threaded2d.Delaunay(points, method=method, threads=2).triangles) > len(points)
+    assert threaded2d.Delaunay(points, method="auto", threads=1).stats.threads == 1  # the advice
+
+
+def test_other_failures_of_a_start_stay_what_they_are(monkeypatch):
+    def refuse(thread):
+        msg = "threads can only be started once"
+        raise RuntimeError(msg)
+
+    monkeypatch.setattr(threading.Thread, "start", refuse)
+    with pytest.raises(RuntimeError, match="only be started once"):
+        together([lambda: None], lambda: None)

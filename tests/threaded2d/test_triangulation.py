@@ -166,20 +166,3 @@ def test_growth_of_the_history(monkeypatch):
         assert tri.stats.growths >= 1
         np.testing.assert_array_equal(canonical(tri.triangles), want)
         assert tri.verify(), tri.verify()
-
-
-def test_verify_sees_what_is_broken():
-    tri = threaded2d.Delaunay(EVERY_SET["uniform"](50), method="sequential")
-    verify = threaded2d.verify
-    good = (tri.points, tri.triangles, tri.neighbors, tri.duplicates)
-    assert verify(*good)
-    assert not verify(tri.points, tri.triangles[:, ::-1], tri.neighbors[:, ::-1], tri.duplicates)
-    assert not verify(tri.points, tri.triangles[1:], tri.neighbors[1:], tri.duplicates)
-    moved = tri.points.copy()
-    moved[7] = 0.5
-    assert not verify(moved, *good[1:])
-    swapped = tri.neighbors.copy()
-    swapped[0] = swapped[0, ::-1] + 1
-    assert "broken: neighbors says which ones" in str(
-        verify(tri.points, tri.triangles, swapped, tri.duplicates)
-    )

@@ -46,7 +46,7 @@ def publish(
     axes = figure.add_subplot()
     draw(axes)
     save_figure(figure, out / f"{name}.png", dpi=120)
-    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}")
+    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}", markup=False)
 
 
 def _text(value: Any) -> str:

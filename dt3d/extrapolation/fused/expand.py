@@ -131,6 +131,8 @@ def approximate(query: Frame, point: Point) -> Any:
 
 
 def _loop(most: Any, body: Any, start: Any) -> Any:
+    """The body for 0, 1, ... up to ``most`` or a few more."""
+
     def turn(state: Any) -> Any:
         k, value = state
         for j in range(SLOTS):

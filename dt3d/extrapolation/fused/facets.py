@@ -19,6 +19,7 @@ from .expand import at
 EMPTY = 2**31 - 1
 ABSENT = -1
 TURNS_OF_ALL = 2
+MOST_TURNS = 2**31 - 1  # that 32 bits can count
 FEW = 8  # one in so many goes on at a time,
 TURNS_OF_FEW = 4  # so many turns
 
@@ -41,8 +42,8 @@ def first_slot(facet: Any, slots: int) -> Any:
     return (mixed(facet) & jnp.uint32(slots - 1)).astype(jnp.int32)
 
 
-def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any]:
-    """The half-face of each facet, or `ABSENT`; and the slot where the search ended."""
+def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any, Any]:
+    """The half-face of each facet, or `ABSENT`; the slot where the search ended; and how many did not end."""
     slots = len(table)
 
     def turn(shared: None, probe: Probe) -> tuple[None, Probe]:
@@ -57,14 +58,15 @@ def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any
 
     slot = first_slot(facet, slots)
     probe = Probe(facet, slot, slot, jnp.full_like(slot, ABSENT), active)
-    _, probe = _until_done(turn, None, probe)
-    return probe.found, probe.slot
+    _, probe = _until_done(turn, None, probe, slots)
+    return probe.found, probe.slot, _still_waiting(probe)
 
 
-def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: Any) -> tuple[Any, Any]:
+def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: Any) -> tuple[Any, Any, Any]:
     """Enter half-faces of facets that are not in the table, from the given slots on.
 
-    Also the half-face that was there first, where two of the batch are of one facet, otherwise `ABSENT`.
+    Also the half-face that was there first, where two of the batch are of one facet, otherwise `ABSENT`; and
+    how many found no place.
     """
     slots = len(table)
 
@@ -79,8 +81,13 @@ def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: A
         slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
         return table, probe._replace(slot=slot, found=jnp.where(same, entry, probe.found), waiting=going)
 
-    table, probe = _until_done(turn, table, Probe(facet, half, slot, jnp.full_like(half, ABSENT), active))
-    return table, probe.found
+    probe = Probe(facet, half, slot, jnp.full_like(half, ABSENT), active)
+    table, probe = _until_done(turn, table, probe, slots)
+    return table, probe.found, _still_waiting(probe)
+
+
+def _still_waiting(probe: Probe) -> Any:
+    return jnp.sum(probe.waiting, dtype=jnp.int32)
 
 
 class Probe(NamedTuple):
@@ -98,15 +105,20 @@ def _names(facet: Any, corners: Any, entry: Any, taken: Any) -> Any:
     return (facet[0] == other[0]) & (facet[1] == other[1]) & (facet[2] == other[2])
 
 
-def _until_done(turn: Any, shared: Any, probe: Probe) -> tuple[Any, Probe]:
-    """Turns of all, then of those that still wait, packed together: few wait for long."""
+def _until_done(turn: Any, shared: Any, probe: Probe, slots: int) -> tuple[Any, Probe]:
+    """Turns of all, then of those that still wait, packed together: few wait for long.
+
+    In every turn a facet is done or goes on to another slot, and the first few of those that wait take turns
+    until they are done. So, as some slots are free, there are fewer turns than ``most``.
+    """
     size = len(probe.slot)
     few = -(-size // FEW)
+    most = min((FEW + 1) * (slots // TURNS_OF_FEW + 1), MOST_TURNS)
     for _ in range(TURNS_OF_ALL):
         shared, probe = turn(shared, probe)
 
     def again(state: Any) -> Any:
-        shared, probe = state
+        turns, shared, probe = state
         place = jnp.cumsum(probe.waiting, dtype=jnp.int32)
         target = jnp.where(probe.waiting & (place <= few), place - 1, few)
         lane = jnp.full(few, size, jnp.int32).at[target].set(jnp.arange(size, dtype=jnp.int32), mode="drop")
@@ -115,10 +127,18 @@ def _until_done(turn: Any, shared: Any, probe: Probe) -> tuple[Any, Probe]:
         part = part._replace(waiting=part.waiting & (lane < size))
         for _ in range(TURNS_OF_FEW):
             shared, part = turn(shared, part)
-        return shared, probe._replace(
-            slot=probe.slot.at[lane].set(part.slot, mode="drop"),
-            found=probe.found.at[lane].set(part.found, mode="drop"),
-            waiting=probe.waiting.at[lane].set(part.waiting, mode="drop"),
+        return (
+            turns + 1,
+            shared,
+            probe._replace(
+                slot=probe.slot.at[lane].set(part.slot, mode="drop"),
+                found=probe.found.at[lane].set(part.found, mode="drop"),
+                waiting=probe.waiting.at[lane].set(part.waiting, mode="drop"),
+            ),
         )
 
-    return jax.lax.while_loop(lambda state: jnp.any(state[1].waiting), again, (shared, probe))
+    def unfinished(state: Any) -> Any:
+        turns, _, probe = state
+        return jnp.any(probe.waiting) & (turns < most)
+
+    return jax.lax.while_loop(unfinished, again, (jnp.int32(0), shared, probe))[1:]

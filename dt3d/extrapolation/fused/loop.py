@@ -12,8 +12,9 @@ import jax.numpy as jnp
 import numpy as np
 
 import scanvec as sv
+from scanvec._running import computing
 
-from ..._errors import InconsistencyError
+from ..._errors import InternalError
 from ...predicates.integers import limbs_of
 from ..outcome import Outcome
 from ..points import Point
@@ -25,6 +26,7 @@ from .mesh import (
     Batch,
     Queue,
     attach,
+    check_places,
     defer,
     empty_queue,
     grown,
@@ -151,7 +153,7 @@ class Triangulation:
         self._add("face expansion", begin)
         begin = time.perf_counter()
         self.mesh, facts = attach(self.mesh, batch, expansion, self.layout.chunk)
-        after, self.fresh, self.tail, contradictions, *statuses = np.asarray(facts).tolist()
+        after, self.fresh, self.tail, contradictions, unplaced, *statuses = np.asarray(facts).tolist()
         if stage:
             self.waiting[stage] -= min(self.width, self.waiting[stage])
         for status, next_stage in ((WIDER, NEXT[stage]), (TIE, TIES)):
@@ -164,11 +166,13 @@ class Triangulation:
         self.iteration.append(after - sum(self.iteration))
         self._add("dead faces", begin)
         if contradictions:
-            msg = (
-                f"{contradictions} tetrahedra contradict others, which exact decisions exclude: "
-                f"this is an error of dt3d, please report it with the points"
-            )
-            raise InconsistencyError(msg, contradictions)
+            msg = f"{contradictions} tetrahedra contradict others, which exact decisions exclude"
+            raise InternalError(msg)
+        check_places(unplaced, len(self.mesh.table))
+        # a face goes through at most four stages, so an endless run would have endless tetrahedra
+        if 2 * after > len(self.sites) ** 2:
+            msg = f"{after} tetrahedra of {len(self.sites)} sites were found, more than any triangulation has"
+            raise InternalError(msg)
 
     def _defer(self, stage: int, batch: Batch, expansion: Expansion, status: int, count: int) -> None:
         if stage not in self.queues:
@@ -265,7 +269,7 @@ def triangulate(
     machine: sv.Machine, sites: np.ndarray, report: Callable[[int, int, int], None] | None = None
 ) -> Outcome:
     """Triangulate distinct sites (n, 3) in lexicographic order, exactly."""
-    with jax.enable_x64(True):
+    with computing():
         run = Triangulation(machine, sites)
         run.run(report)
         return run.result()

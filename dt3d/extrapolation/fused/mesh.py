@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from ..._errors import InternalError
 from ..._topology import OUTSIDE
 from .expand import FOUND, HULL, Expansion, at
 from .facets import ABSENT, EMPTY, ascending, facet_of, first_slot, insert, look_up
@@ -115,31 +116,32 @@ def defer(queue: Queue, batch: Batch, expansion: Expansion, status: Any) -> Queu
 def attach(mesh: Mesh, batch: Batch, expansion: Expansion, chunk: int) -> tuple[Mesh, Any]:
     """Make the tetrahedra that a batch has found, each once; and what the host has to know.
 
-    That is: tetrahedra, fresh faces that wait, the tail of their queue, contradictions, faces of each status.
+    That is: tetrahedra, fresh faces that wait, the tail of their queue, contradictions, facets that the table
+    has no place for, faces of each status.
     """
 
     def one_chunk(k: Any, state: Any) -> Any:
-        mesh, contradictions = state
+        mesh, *faults = state
         cut = partial(jax.lax.dynamic_slice, start_indices=(k * chunk,), slice_sizes=(chunk,))
         half, face, status, site = jax.tree.map(
             cut, (batch.half, batch.face, expansion.status, expansion.site)
         )
         # a face may have met since it was taken: another of this batch has found its tetrahedron
         active = (jnp.arange(chunk) + k * chunk < batch.count) & (at(mesh.neighbors, half) == OPEN)
-        mesh, more = _attach_chunk(mesh, half, face, status, site, active)
-        return mesh, contradictions + more
+        mesh, *more = _attach_chunk(mesh, half, face, status, site, active)
+        return mesh, *(x + y for x, y in zip(faults, more, strict=True))
 
     chunks = (batch.count + chunk - 1) // chunk
-    mesh, contradictions = jax.lax.fori_loop(0, chunks, one_chunk, (mesh, jnp.int32(0)))
+    mesh, *faults = jax.lax.fori_loop(0, chunks, one_chunk, (mesh, jnp.int32(0), jnp.int32(0)))
     active = jnp.arange(len(batch.half)) < batch.count
     statuses = [jnp.sum(active & (expansion.status == s), dtype=jnp.int32) for s in range(4)]
     fresh = mesh.fresh
-    return mesh, jnp.stack([mesh.tetrahedra, fresh.tail - fresh.head, fresh.tail, contradictions, *statuses])
+    return mesh, jnp.stack([mesh.tetrahedra, fresh.tail - fresh.head, fresh.tail, *faults, *statuses])
 
 
 def _attach_chunk(
     mesh: Mesh, behind: Any, face: Any, status: Any, site: Any, active: Any
-) -> tuple[Mesh, Any]:
+) -> tuple[Mesh, Any, Any]:
     corners, neighbors, table = mesh.corners, mesh.neighbors, mesh.table
     width, capacity = len(behind), len(corners)
     lane = jnp.arange(width, dtype=jnp.int32)
@@ -152,7 +154,7 @@ def _attach_chunk(
     # one of the faces that found a tetrahedron makes it: the first
     (a, b, c), d = face, jnp.where(found, site, 0)
     facets = _others(a, b, c, d)
-    entry, slot = look_up(table, corners, facets, jnp.tile(found, 3))
+    entry, slot, unfound = look_up(table, corners, facets, jnp.tile(found, 3))
     there = entry != ABSENT
     state = at(neighbors, jnp.where(there, entry, 0))
     contradictions = jnp.sum(there & (state >= OUTSIDE), dtype=jnp.int32)
@@ -170,7 +172,7 @@ def _attach_chunk(
     own = 4 * (t + lane)
     half = jnp.concatenate([own, own + 1, own + 2])
     unknown = news & (entry == ABSENT)
-    table, twin = insert(table, corners, _others(a, b, c, d), half, slot, unknown)
+    table, twin, unplaced = insert(table, corners, _others(a, b, c, d), half, slot, unknown)
     entry = jnp.where(unknown, twin, entry)
 
     # join neighbours
@@ -181,7 +183,7 @@ def _attach_chunk(
     neighbors = neighbors.at[there].set(jnp.concatenate([half, own + 3]), mode="drop")
 
     fresh = append(mesh.fresh, news & (at(neighbors, half) == OPEN), half)
-    return Mesh(corners, neighbors, table, fresh, t + m), contradictions
+    return Mesh(corners, neighbors, table, fresh, t + m), contradictions, unfound + unplaced
 
 
 def _others(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, Any, Any]:
@@ -192,18 +194,20 @@ def _others(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, Any, Any]:
 
 @partial(jax.jit, static_argnames=("slots", "width"))
 def tabulate(corners: Any, neighbors: Any, tetrahedra: Any, slots: int, width: int) -> Any:
-    """A table of all open faces."""
+    """A table of all open faces, and how many it has no place for."""
 
-    def batch(k: Any, table: Any) -> Any:
+    def batch(k: Any, state: Any) -> Any:
+        table, unplaced = state
         begin = jnp.minimum(k * width, len(corners) - width)
         half = begin + jnp.arange(width, dtype=jnp.int32)
         is_open = (half >= k * width) & (half < 4 * tetrahedra)
         is_open &= jax.lax.dynamic_slice(neighbors, (begin,), (width,)) == OPEN
         facet = facet_of(corners, half)
-        return insert(table, corners, facet, half, first_slot(facet, slots), is_open)[0]
+        table, _, more = insert(table, corners, facet, half, first_slot(facet, slots), is_open)
+        return table, unplaced + more
 
-    table = jnp.full(slots, EMPTY, jnp.int32)
-    return jax.lax.fori_loop(0, (4 * tetrahedra + width - 1) // width, batch, table)
+    start = jnp.full(slots, EMPTY, jnp.int32), jnp.int32(0)
+    return jax.lax.fori_loop(0, (4 * tetrahedra + width - 1) // width, batch, start)
 
 
 def planted(tetrahedra: np.ndarray, capacity: int, width: int) -> Mesh:
@@ -226,10 +230,21 @@ def empty_queue(capacity: int) -> Queue:
 
 
 def with_table(mesh: Mesh, width: int) -> Mesh:
-    """The mesh with a table of its open faces, and of no others."""
+    """The mesh with a table of its open faces, and of no others.
+
+    A tetrahedron enters at most three facets into it, those of a seed four.
+    """
     slots = SLOTS_PER_TETRAHEDRON * len(mesh.corners) // 4
-    table = tabulate(mesh.corners, mesh.neighbors, mesh.tetrahedra, slots, width)
+    table, unplaced = tabulate(mesh.corners, mesh.neighbors, mesh.tetrahedra, slots, width)
+    check_places(int(unplaced), slots)
     return jax.tree.map(jnp.asarray, mesh._replace(table=table))
+
+
+def check_places(unplaced: int, slots: int) -> None:
+    """Raise InternalError where facets have looked at all slots of the table."""
+    if unplaced:
+        msg = f"{unplaced} facets have looked at all {slots} slots of their table"
+        raise InternalError(msg)
 
 
 def grown(mesh: Mesh, width: int) -> Mesh:

@@ -112,6 +112,7 @@ def _decide(
     def unfinished(state: Any) -> Any:
         return jnp.any(jnp.stack([m != 0 for m in state[0]]))
 
+    # ends after at most `MARKS` turns: in each every face that is not finished loses a mark
     marks = tuple(mark(w) for w in range(WORDS))
     _, champion = jax.lax.while_loop(unfinished, compare, (marks, jnp.full_like(first, NO_SITE)))
     covered = contains(box, cap_cells(query, high, windows.grid)) & small

@@ -82,6 +82,7 @@ def _search(
         known = jnp.minimum(now.known, best.high)
         return Pass(now.trial + 1, limit, best, known, now.going & ~over), searched + more
 
+    # ends after at most TRIALS + 2 passes: the limit of the last is none, and all are over then
     start = Pass(jnp.zeros_like(face[0]), infinite, nothing, known, active)
     end, searched = jax.lax.while_loop(lambda s: jnp.any(s[0].going), one_pass, (start, jnp.int64(0)))
     best = end.best

@@ -167,5 +167,5 @@ def test_without_exact_decisions_the_result_is_wrong(monkeypatch):
         return best.site, nobody, searched
 
     monkeypatch.setattr(decisions, "_decide", guess)
-    with pytest.raises(dt3d.InconsistencyError, match="contradict others, which exact decisions exclude"):
+    with pytest.raises(dt3d.InternalError, match="contradict others, which exact decisions exclude"):
         dt3d.Delaunay(SETS["tenths"], machine=MACHINE)

@@ -1,0 +1,159 @@
+"""What users pass as points, as an array: lists, masked arrays, tables, meshes. Errors tell the way out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import Any
+
+import numpy as np
+
+from ._exact_conversion import to_float64
+
+AXES = "xyz"
+
+
+def as_numbers(given: Any, name: str, dimension: int) -> tuple[np.ndarray, str]:
+    """The array that was given, not yet float64 and of any shape, and an expression for it in messages.
+
+    Parameters
+    ----------
+    given
+        An array, what NumPy makes an array of, a masked array with nothing masked, a structured array with
+        fields x, y and z, a table (of pandas, for example), or an object with an attribute ``points``, as
+        a mesh of PyVista has.
+    name : str
+        What the caller calls it.
+    dimension : 2 or 3
+        How many coordinates are wanted.
+
+    Raises
+    ------
+    ValueError
+        If it is masked in places, a file's name, ragged, or nothing of the kind.
+    """
+    if isinstance(given, np.ma.MaskedArray):
+        return as_numbers(_unmasked(given, name), name, dimension)
+    if isinstance(given, np.ndarray):
+        if given.dtype.names:
+            return _fields(given, name, dimension), name
+        if given.dtype.kind == "O" and given.ndim == 1 and all(_is_row(row) for row in given):
+            return as_numbers(list(given), f"np.stack({name})", dimension)
+        return given, name
+    if isinstance(given, list | tuple):
+        return _rows(given, name, dimension), f"np.asarray({name})"
+    if isinstance(given, str | bytes | PathLike):
+        reader = "read_points(path)" if dimension == 3 else "read_points(path, dimension=2)"
+        msg = f"{name} must be numbers, got {given!r}; for a file pass dt3d.files.{reader}"
+        raise ValueError(msg)
+    if isinstance(given, Mapping):
+        columns = ", ".join(f"{name}[{key!r}]" for key in list(given)[:dimension])
+        msg = f"{name} must be an array, got a {type(given).__name__}; pass np.column_stack([{columns}])"
+        raise ValueError(msg)
+    if hasattr(given, "to_numpy") and hasattr(given, "columns") and len(np.shape(given)) == 2:
+        return _table(given, name, dimension), f"{name}.to_numpy()"
+    if np.ndim(getattr(given, "points", 0)) == 2:
+        return as_numbers(given.points, f"{name}.points", dimension)
+    return _made(given, name), f"np.asarray({name})"
+
+
+def _made(given: Any, name: str) -> np.ndarray:
+    """NumPy's array of an object of another library."""
+    try:
+        array = np.asarray(given)
+    except Exception as error:  # tensors on other devices raise TypeError, others RuntimeError
+        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        msg = f"{name} of type {type(given).__name__} cannot be made a NumPy array: {reason}"
+        raise ValueError(msg) from error
+    if array.dtype.kind == "O" and not array.ndim:
+        msg = f"{name} must be an array of numbers, got a {type(given).__name__}"
+        if hasattr(given, "__iter__"):
+            msg += f"; pass list({name})"
+        raise ValueError(msg)
+    return array
+
+
+def _rows(given: list | tuple, name: str, dimension: int) -> np.ndarray:
+    if any(isinstance(row, np.ma.MaskedArray) for row in given):  # np.asarray would drop their masks
+        return np.asarray(_unmasked(np.ma.array(given), f"np.ma.array({name})"))
+    try:
+        return np.asarray(given)
+    except OverflowError:  # a great integer beside floats
+        return np.asarray(given, object)
+    except (ValueError, TypeError) as error:
+        lengths = [len(row) if _is_row(row) else 0 for row in given]
+        odd = next((i for i, length in enumerate(lengths) if length != lengths[0]), None)
+        where = str(error) if odd is None else f"row {odd} has {lengths[odd]} numbers, row 0 has {lengths[0]}"
+        msg = (
+            f"{name} must be an array of shape (n, {dimension}); the rows that came do not have one length: "
+            f"{where}"
+        )
+        raise ValueError(msg) from None
+
+
+def _is_row(row: Any) -> bool:
+    return isinstance(row, list | tuple) or (isinstance(row, np.ndarray) and row.ndim > 0)
+
+
+def _unmasked(given: np.ma.MaskedArray, name: str) -> np.ndarray:
+    """The data of a masked array with nothing masked."""
+    mask = np.ma.getmaskarray(given)
+    if given.dtype.names:
+        cure = f"{name}[[not any(row) for row in np.ma.getmaskarray({name})]]"
+        masked = sum(any(row) for row in mask.ravel())
+    else:
+        cure = f"{name}[~np.ma.getmaskarray({name}).any(axis=-1)]"
+        masked = np.count_nonzero(mask.any(axis=-1)) if mask.ndim else int(mask)
+    if masked:
+        msg = f"{name} are a masked array, and {masked} rows are masked in places; drop these: pass {cure}"
+        raise ValueError(msg)
+    return given.data
+
+
+def _fields(given: np.ndarray, name: str, dimension: int) -> np.ndarray:
+    """The columns x, y (and z) of a structured array (n,)."""
+    names = {field.lower(): field for field in given.dtype.names or ()}
+    wanted = [names.get(axis) for axis in AXES[:dimension]]
+    if None in wanted or given.ndim != 1:
+        found = ", ".join(given.dtype.names or ())
+        columns = ", ".join(f"{name}[{field!r}]" for field in (given.dtype.names or ())[:dimension])
+        msg = (
+            f"{name} are a structured array of shape {given.shape} with the fields {found}; what is read is "
+            f"{', '.join(AXES[:dimension])} of shape (n,). For other fields pass np.column_stack([{columns}])"
+        )
+        raise ValueError(msg)
+    if dimension == 2 and "z" in names:
+        msg = (
+            f"{name} have a field {names['z']}, and a triangulation in the plane needs x and y alone; pass "
+            f"{name}[{wanted!r}], or for points in space use dt3d.Delaunay"
+        )
+        raise ValueError(msg)
+    return np.column_stack([to_float64(given[field], f"{name}[{field!r}]") for field in wanted])
+
+
+def _table(given: Any, name: str, dimension: int) -> np.ndarray:
+    """The columns of a table, each converted by itself: together they could be rounded."""
+    labels = list(given.columns)
+    if len(labels) != dimension:
+        names = {str(label).lower(): label for label in labels}
+        wanted = [names[axis] for axis in AXES[:dimension] if axis in names]
+        cure = f"; pass {name}[{wanted!r}]" if len(wanted) == dimension else ""
+        if dimension == 3 and len(labels) == 2:
+            cure = "; for points in the plane use dt3d.threaded2d.Delaunay"
+        msg = f"{name} must have {dimension} columns, got {len(labels)}: {', '.join(map(str, labels))}{cure}"
+        raise ValueError(msg)
+    columns = []
+    for k, label in enumerate(labels):
+        column = given.iloc[:, k] if hasattr(given, "iloc") else given[label]
+        columns.append(_column(column, f"{name}[{label!r}]", name))
+    return np.column_stack(columns)
+
+
+def _column(column: Any, name: str, table: str) -> np.ndarray:
+    values = column.to_numpy()
+    if values.dtype.kind == "O":
+        missing = [i for i, value in enumerate(values) if value is None or type(value).__name__ == "NAType"]
+        if missing:
+            msg = f"row {missing[0]} of {name} has no value; drop such rows: pass {table}.dropna()"
+            raise ValueError(msg)
+    return to_float64(values, name)

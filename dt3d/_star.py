@@ -1,0 +1,55 @@
+"""Simplices that contain a point on a border of them: the star of the face on which it lies."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from ._topology import OUTSIDE
+from .predicates.filtered import orient3d
+from .predicates.filtered2d import orient2d
+
+
+@numba.njit(cache=True)
+def _on_facet(rows, simplices, t, k, q, w):
+    """Whether q, a row in simplex t, lies on the facet opposite the k-th vertex."""
+    a = q if k == 0 else simplices[t, 0]
+    b = q if k == 1 else simplices[t, 1]
+    c = q if k == 2 else simplices[t, 2]
+    if simplices.shape[1] == 3:
+        return orient2d(rows, a, b, c, w) == 0
+    d = q if k == 3 else simplices[t, 3]
+    return orient3d(rows, a, b, c, d, w) == 0
+
+
+@numba.njit(nogil=True, cache=True)
+def find_beside(rows, simplices, neighbors, kept, q, points, found, out, w):
+    """For each point, copied to row q and in simplex found, write a kept simplex that contains it, if any.
+
+    Facets with the point on them lead from one simplex of its star to all others.
+    """
+    seen = np.zeros(len(simplices), np.bool_)
+    star = np.empty(64, np.int32)
+    for i in range(len(points)):
+        rows[q] = points[i]
+        star[0], count, done = found[i], 1, 0
+        seen[found[i]] = True
+        while done < count and out[i] == OUTSIDE:
+            t = star[done]
+            done += 1
+            if kept[t]:
+                out[i] = t
+                break
+            for k in range(simplices.shape[1]):
+                u = neighbors[t, k]
+                if u == OUTSIDE or seen[u] or not _on_facet(rows, simplices, t, k, q, w):
+                    continue
+                if count == len(star):
+                    longer = np.empty(2 * count, np.int32)
+                    longer[:count] = star
+                    star = longer
+                star[count] = u
+                count += 1
+                seen[u] = True
+        for j in range(count):
+            seen[star[j]] = False

@@ -1,0 +1,97 @@
+"""Loops of extrapolation that would not end: each ends in an `InternalError`.
+
+No input leads there, so what the loops rely on is broken on purpose.
+"""
+
+from dataclasses import replace
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import dt3d
+import scanvec as sv
+from dt3d.extrapolation import cell_search, dictionary, loop, tree_search
+from dt3d.extrapolation.buckets import bucket
+from dt3d.extrapolation.fused import facets, mesh
+from dt3d.extrapolation.gift_wrapping import NEAREST, Start
+from dt3d.extrapolation.outcome import Outcome
+from dt3d.extrapolation.points import Point
+
+MACHINE = sv.Simulated(processors=1)
+
+
+def full_dictionary(slots):
+    """All slots are taken by one entry."""
+    return dictionary.Dictionary(MACHINE.full(slots, 0, np.int32), (MACHINE.full(1, 5, np.int32),))
+
+
+def test_a_full_dictionary_is_not_searched_for_ever():
+    table = full_dictionary(16)
+    assert dictionary.look_up(table, (MACHINE.full(1, 5, np.int32),)).to_numpy().tolist() == [0]
+    with pytest.raises(dt3d.InternalError, match="a key has looked at all 16 slots.*please report"):
+        dictionary.look_up(table, (MACHINE.full(1, 7, np.int32),))
+    with pytest.raises(dt3d.InternalError, match="a key has looked at all 16 slots"):
+        dictionary.insert(table, (MACHINE.full(2, 7, np.int32),))
+
+
+def test_a_full_table_of_facets_is_not_searched_for_ever():
+    corners = jnp.arange(400, dtype=jnp.int32)
+    facet = tuple(jnp.full(20, v, jnp.int32) for v in (500, 501, 502))
+    half, every = jnp.arange(100, 120, dtype=jnp.int32), jnp.ones(20, bool)
+    with jax.enable_x64(True):
+        look_up, insert = jax.jit(facets.look_up), jax.jit(facets.insert)
+        full = jnp.zeros(64, jnp.int32)
+        assert int(look_up(full, corners, facet, every)[2]) == 20
+        assert int(insert(full, corners, facet, half, half, every)[2]) == 20
+        one_is_free = full.at[40].set(facets.EMPTY)  # which is enough for one facet
+        assert int(look_up(one_is_free, corners, facet, every)[2]) == 0
+        _, found, unplaced = insert(one_is_free, corners, facet, half, half, every)
+        assert found.tolist() == [facets.ABSENT, *[100] * 19]
+        assert int(unplaced) == 0
+
+
+def test_more_facets_than_the_table_has_slots(monkeypatch):
+    tetrahedra = np.arange(160, dtype=np.int32).reshape(40, 4)
+    with jax.enable_x64(True):
+        mesh.planted(tetrahedra, 64, 32)
+        monkeypatch.setattr(mesh, "SLOTS_PER_TETRAHEDRON", 1)
+        with pytest.raises(dt3d.InternalError, match="96 facets have looked at all 64 slots"):
+            mesh.planted(tetrahedra, 64, 32)
+
+
+def nearest(sites, **functions):
+    """Buckets, queries for the sites nearest to all, and the question with some functions changed."""
+    points = Point(*(MACHINE.vector(np.ascontiguousarray(x)) for x in sites.T))
+    buckets = bucket(points)
+    queries = Start(buckets.sites, MACHINE.iota(len(sites)))
+    return buckets, queries, replace(NEAREST, **functions)
+
+
+def test_a_tree_search_with_bounds_that_are_no_numbers():
+    sites = np.random.default_rng(0).random((60, 3))
+    buckets, queries, question = nearest(sites, trial=lambda query, k: jnp.full_like(query.a.x, jnp.nan))
+    assert len(tree_search.search(buckets, queries, NEAREST).best.site) == 60
+    with pytest.raises(dt3d.InternalError, match="60 of 60 searches in a tree do not end"):
+        tree_search.search(buckets, queries, question)
+
+
+def test_a_cell_search_whose_boxes_do_not_grow(monkeypatch):
+    sites = np.random.default_rng(0).random((200, 3))
+    buckets, queries, question = nearest(sites, homes=lambda query: (query.site,))
+    monkeypatch.setattr(cell_search, "TURNS_BETWEEN_LOOKS", 4)
+    first = queries.a, queries.a
+    assert len(cell_search.search(buckets, queries, first, NEAREST).best.site) == 200
+    monkeypatch.setattr(cell_search, "contains", lambda outer, inner: jnp.zeros_like(outer.x0, bool))
+    with pytest.raises(dt3d.InternalError, match="a search through cells has taken .* rounds"):
+        cell_search.search(buckets, queries, first, question)
+
+
+def test_more_tetrahedra_than_any_triangulation_has():
+    nothing = Outcome(np.empty((0, 4), np.int32), np.empty((0, 4), np.int32), np.empty(0, np.int32))
+    loop._give_up_if_hopeless(nothing, 50, 10, True)
+    with pytest.raises(dt3d.InternalError, match="51 tetrahedra of 10 sites were found"):
+        loop._give_up_if_hopeless(nothing, 51, 10, True)
+    with pytest.raises(dt3d.InconsistencyError, match="Use method='insertion'"):
+        loop._give_up_if_hopeless(nothing, 51, 10, False)

@@ -1,0 +1,458 @@
+"""Files are written whole or not at all: full disks, Ctrl-C, signals, and targets that cannot be written."""
+
+import errno
+import os
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import threading
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import scanvec as sv
+from dt3d._output import write_csv
+from dt3d._paths import check_apart, check_writable, written_aside
+from dt3d.files import read_mesh, read_points, write_mesh
+from dt3d.plot import draw
+
+resource = pytest.importorskip("resource")  # of POSIX
+
+MESHES = [".npz", ".vtu", ".vtk", ".msh", ".mesh", ".ply", ".stl"]
+PICTURES = [".png", ".pdf", ".svg", ".jpg"]
+TABLES = [".csv"]
+OLD = b"the old file, which somebody may need\n"
+LIMIT = 4_096  # bytes, which is less than every one of these files has
+
+
+@pytest.fixture(scope="module")
+def big():
+    """A triangulation's arrays, of which each format makes far more than LIMIT bytes."""
+    rng = np.random.default_rng(0)
+    simplices = rng.permuted(np.tile(np.arange(1000, dtype=np.int32), (500, 1)), axis=1)[:, :4]
+    return SimpleNamespace(
+        points=rng.random((1000, 3)),
+        simplices=simplices,
+        neighbors=simplices,
+        convex_hull=simplices[:, :3],
+        iteration=np.ones(500, np.int32),
+    )
+
+
+def save(big, path):
+    """Write the triangulation in the format of the extension."""
+    if path.suffix in MESHES:
+        write_mesh(big, path)
+    elif path.suffix in PICTURES:
+        draw(big, path, width=300, height=250)
+    else:
+        write_csv(path, ["x", "y", "z"], np.tile(big.points, (4, 1)))
+
+
+@contextmanager
+def small_files(limit):
+    """A limit to the size of files stands for a full disk: writing fails half way (EFBIG for ENOSPC)."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, ignored)
+
+
+@pytest.fixture(params=[*MESHES, *PICTURES, *TABLES])
+def target(request, tmp_path):
+    """A file of that extension, which is there, alone in its folder."""
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    path = folder / f"old{request.param}"
+    path.write_bytes(OLD)
+    return path
+
+
+def is_as_it_was(path):
+    """The old file is whole, and nothing was left beside it."""
+    assert path.read_bytes() == OLD
+    assert os.listdir(path.parent) == [path.name]
+
+
+def test_a_good_file_takes_the_place_of_the_old_one(big, target):
+    save(big, target)
+    assert target.stat().st_size > LIMIT
+    assert os.listdir(target.parent) == [target.name]
+
+
+def test_a_full_disk_leaves_the_old_file(big, target):
+    whole = target.with_name("whole" + target.suffix)
+    save(big, whole)
+    size = whole.stat().st_size
+    whole.unlink()
+    # libraries that write by several ways overlook a part that is short at the end of one of them
+    for limit in (0, LIMIT, size - 5000, size - 100, size - 1):
+        with small_files(max(0, limit)), pytest.raises(OSError, match=r"."):
+            save(big, target)
+        is_as_it_was(target)
+
+
+def test_a_full_disk_names_the_file(big, target):
+    with (
+        small_files(LIMIT),
+        pytest.raises(OSError, match=r"cannot write .*old\..*; the old file is as it was$") as caught,
+    ):
+        save(big, target)
+    assert ".dt3d-" not in str(caught.value)
+    target.unlink()
+    with small_files(LIMIT), pytest.raises(OSError, match=r"cannot write .*old\.[a-z]+: [A-Za-z0-9 ]+$"):
+        save(big, target)
+    assert os.listdir(target.parent) == []
+
+
+@pytest.fixture
+def full_disk(tmp_path):
+    """A file system of its own with a few kilobytes, where we may mount one."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", str(folder)]
+    try:
+        done = subprocess.run(mount, capture_output=True, check=False)
+    except FileNotFoundError:
+        pytest.skip("there is no mount")
+    if done.returncode:
+        pytest.skip("a small file system cannot be mounted here")
+    yield folder
+    subprocess.run(["umount", str(folder)], check=True)
+
+
+@pytest.mark.parametrize("extension", [*MESHES, *PICTURES, *TABLES])
+def test_a_disk_that_is_full_indeed(big, full_disk, extension):
+    path = full_disk / f"old{extension}"
+    path.write_bytes(OLD)
+    with pytest.raises(OSError, match=r"."):
+        save(big, path)
+    is_as_it_was(path)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit, MemoryError])
+def test_whatever_ends_the_writing_half_way(target, error):
+    def write():
+        with written_aside(target) as aside:
+            aside.write_bytes(b"a part")
+            assert target.read_bytes() == OLD
+            raise error
+
+    with pytest.raises(error):
+        write()
+    is_as_it_was(target)
+
+
+def calls_while_writing(monkeypatch, at=None):
+    """Count the calls from the moment on that a file is there, and raise KeyboardInterrupt at one of them."""
+    real, count = os.open, [0]
+
+    def come(frame, event, _):
+        if event == "c_call" and frame.f_code.co_name != "__del__":
+            count[0] += 1
+            if count[0] == at:
+                raise KeyboardInterrupt
+
+    def opened(path, *words, **options):
+        number = real(path, *words, **options)
+        if ".dt3d-" in str(path):
+            sys.setprofile(come)
+        return number
+
+    monkeypatch.setattr("os.open", opened)
+    return count
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")  # it may come between an open and its `with`
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("target", [*MESHES, ".png", ".csv"], indirect=True)  # pictures have one way
+def test_ctrl_c_anywhere_in_each_writer(cube, target, monkeypatch):
+    save(cube, target)  # loads what it needs
+    target.write_bytes(OLD)
+    with monkeypatch.context() as patch:
+        count = calls_while_writing(patch)
+        save(cube, target)
+        sys.setprofile(None)
+    whole, target = target, target.with_name("again" + target.suffix)
+    size = whole.stat().st_size
+    whole.unlink()
+    target.write_bytes(OLD)
+    for at in sorted({1, 2, 3, *np.linspace(4, count[0] - 8, 8).astype(int)}):
+        with monkeypatch.context() as patch:
+            calls_while_writing(patch, at)
+            try:
+                with pytest.raises(KeyboardInterrupt):
+                    save(cube, target)
+            finally:
+                sys.setprofile(None)
+        if target.stat().st_size == size:  # it came when all was done
+            target.write_bytes(OLD)
+        is_as_it_was(target)
+
+
+# targets that cannot be written are refused before anything is computed
+
+
+def refused(path, error, text):
+    for check in (check_writable, lambda p: written_aside(p).__enter__()):
+        with pytest.raises(error, match=text) as caught:
+            check(path)
+        assert "\n" not in str(caught.value)
+
+
+def test_a_folder_in_the_file_s_place(target):
+    target.unlink()
+    target.mkdir()
+    refused(target, IsADirectoryError, "cannot write .*: it is a folder")
+    assert target.is_dir()
+
+
+def test_a_folder_that_is_not_there(target):
+    refused(target.parent / "no" / target.name, FileNotFoundError, "cannot write .*there is no folder .*no")
+    refused(target / "a.npz", FileNotFoundError, "there is no folder")  # a file in the folder's place
+    is_as_it_was(target)
+
+
+@contextmanager
+def somebody_else():
+    """An unprivileged user; root may write everywhere."""
+    if os.geteuid() != 0:
+        yield
+        return
+    os.seteuid(65534)
+    try:
+        yield
+    finally:
+        os.seteuid(0)
+
+
+@pytest.fixture
+def guarded(target):
+    """The file in a folder that others may enter, which pytest's own folders are not."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.chmod(folder, 0o755)
+        inner = Path(folder) / "inner"
+        inner.mkdir()
+        yield Path(target.rename(inner / target.name))
+        os.chmod(inner, 0o755)
+
+
+def test_a_file_that_is_read_only(big, guarded):
+    os.chmod(guarded.parent, 0o777)
+    os.chmod(guarded, 0o444)
+    with somebody_else():
+        refused(guarded, PermissionError, "cannot write .*: the file is read-only")
+        with pytest.raises(PermissionError):
+            save(big, guarded)
+    is_as_it_was(guarded)
+
+
+def test_a_folder_in_which_nothing_may_be_written(big, guarded):
+    os.chmod(guarded.parent, 0o555)
+    os.chmod(guarded, 0o666)
+    with somebody_else():
+        refused(guarded, PermissionError, "nothing may be written in its folder.*choose another folder")
+        with pytest.raises(PermissionError):
+            save(big, guarded)
+        refused(guarded.parent / "new.npz", PermissionError, "nothing may be written in its folder")
+    is_as_it_was(guarded)
+
+
+# what the new file takes over from the old one
+
+
+def test_permissions_are_those_of_the_old_file_or_of_the_umask(tmp_path):
+    path, before = tmp_path / "a.csv", os.umask(0o027)
+    try:
+        write_csv(path, ["x"], [])
+        assert stat.S_IMODE(path.stat().st_mode) == 0o640
+        path.chmod(0o604)
+        os.utime(path, (1, 1))
+        with written_aside(path) as aside:
+            assert stat.S_IMODE(aside.stat().st_mode) == 0o600  # nobody else reads it meanwhile
+        assert stat.S_IMODE(path.stat().st_mode) == 0o604
+        assert path.stat().st_mtime > 1e9
+    finally:
+        os.umask(before)
+
+
+def test_a_link_stays_a_link(tmp_path):
+    (tmp_path / "there").mkdir()
+    real, link = tmp_path / "there" / "real.csv", tmp_path / "link.csv"
+    link.symlink_to(Path("there") / "real.csv")
+    for rows in ([[1]], [[1], [2]]):  # first it dangles
+        write_csv(link, ["x"], rows)
+        assert link.is_symlink()
+        assert real.read_text().split() == ["x", *(str(row[0]) for row in rows)]
+    assert os.listdir(real.parent) == ["real.csv"]
+
+
+def test_a_pipe_and_a_device_stay_what_they_are(tmp_path):
+    pipe, got = tmp_path / "pipe.csv", []
+    os.mkfifo(pipe)
+    reader = threading.Thread(target=lambda: got.append(pipe.read_text()))
+    reader.start()
+    write_csv(pipe, ["x"], [[1]])
+    reader.join()
+    assert got[0].split() == ["x", "1"]
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+    (tmp_path / "null.npz").symlink_to("/dev/null")
+    with written_aside(tmp_path / "null.npz") as path:
+        path.write_bytes(b"x")
+    assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no such device")
+def test_a_device_that_is_full(big, tmp_path):
+    for extension in MESHES:
+        path = tmp_path / f"full{extension}"
+        path.symlink_to("/dev/full")
+        with pytest.raises(OSError, match=r".") as caught:
+            save(big, path)
+        assert caught.value.errno in (errno.ENOSPC, None)
+        assert stat.S_ISCHR(os.stat("/dev/full").st_mode)
+
+
+NOT_TEXT = os.fsdecode(b"\xff.vtu")
+
+
+@pytest.mark.parametrize("name", ["\u00fc" * 120 + ".npz", NOT_TEXT, "[red]\n$.vtk", "UP.NPZ", "UP.VTU"])
+def test_names_that_are_long_or_not_text(tmp_path, cube, name):
+    write_mesh(cube, tmp_path / name)
+    assert os.listdir(tmp_path) == [name]
+    if name != NOT_TEXT:  # VTK opens no such file
+        np.testing.assert_array_equal(read_mesh(tmp_path / name).simplices, cube.simplices)
+
+
+# signals
+
+
+WRITE = """
+import importlib.util, sys, time
+spec = importlib.util.spec_from_file_location("writing", sys.argv[1])
+writing = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(writing)  # without JAX, which takes a second
+with writing.written_aside(sys.argv[2]) as aside:
+    aside.write_bytes(b"a part")
+    print("ready", flush=True)
+    time.sleep(60)
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGKILL"])
+def test_a_signal_while_writing(tmp_path, name):
+    path = tmp_path / "old.csv"
+    path.write_bytes(OLD)
+    module = Path(sv.__file__).parent / "_writing.py"
+    words = [sys.executable, "-c", WRITE, str(module), str(path)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(signal.Signals[name])
+        process.wait(30)
+    assert process.returncode == -signal.Signals[name]  # it ends as it would have
+    assert path.read_bytes() == OLD
+    left = [other for other in os.listdir(tmp_path) if other != path.name]
+    if name == "SIGKILL":  # which nobody hears; what is left says of whom it is
+        assert [other.split("-")[:2] for other in left] == [[".old.dt3d", str(process.pid)]]
+        assert left[0].endswith(".csv")
+    else:
+        assert left == []
+
+
+def test_another_s_handler_of_signals_stays(tmp_path):
+    heard = []
+    before = signal.signal(signal.SIGTERM, lambda *_: heard.append(1))
+    try:
+        with written_aside(tmp_path / "a.csv") as aside:
+            signal.raise_signal(signal.SIGTERM)
+            aside.write_text("x")
+        assert heard == [1]
+        assert (tmp_path / "a.csv").read_text() == "x"
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    with written_aside(tmp_path / "a.csv"):
+        assert signal.getsignal(signal.SIGTERM) is not before
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+def test_threads_write_one_file_at_once(tmp_path):
+    """Each writes its own file aside; the last to end wins, and no two are mixed."""
+    path, errors = tmp_path / "a.csv", []
+
+    def write(k):
+        try:
+            write_csv(path, ["x"], [[k]] * 2000)
+        except BaseException as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=write, args=(k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert errors == []
+    lines = path.read_text().split()
+    assert len(lines) == 2001
+    assert len(set(lines[1:])) == 1
+    assert os.listdir(tmp_path) == ["a.csv"]
+
+
+# what the formats hold
+
+
+def test_hulls_of_all_magnitudes(cube, tmp_path):
+    for scale in (1e-300, 1e-30, 1.0, 1e30, 1e300):
+        cube.points = cube.points / cube.points.max() * scale
+        write_mesh(cube, tmp_path / "a.ply")
+        assert {tuple(row) for row in read_points(tmp_path / "a.ply")} == {tuple(row) for row in cube.points}
+        if scale < 1e38:
+            write_mesh(cube, tmp_path / "a.stl")
+    with pytest.raises(ValueError, match=r"1e\+300 is beyond the single precision of \.stl; write \.ply"):
+        write_mesh(cube, tmp_path / "a.stl")
+    write_mesh(cube, tmp_path / "a.ply")
+
+
+def test_normals_of_stl_point_outwards(cube, tmp_path):
+    write_mesh(cube, tmp_path / "a.stl")
+    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    faces = np.frombuffer((tmp_path / "a.stl").read_bytes()[84:], kind)
+    assert len(faces) == 12
+    outwards = np.einsum("ij,ij->i", faces["normal"], faces["corners"].mean(axis=1) - 0.5)
+    np.testing.assert_allclose(outwards, 0.5)
+
+
+def test_a_ledger_is_written_aside_too(tmp_path):
+    machine = sv.Simulated(processors=2)
+    sv.scan(machine.vector(np.arange(2000)), sv.ADD)
+    path = tmp_path / "steps.csv"
+    path.write_bytes(OLD)
+    with small_files(10), pytest.raises(OSError, match=r"."):
+        machine.ledger.to_csv(path)
+    is_as_it_was(path)
+
+
+# files that are one
+
+
+def test_files_of_one_command_are_apart(tmp_path):
+    a, b, c = tmp_path / "a.npz", tmp_path / "b.npz", tmp_path / "c.npz"
+    a.write_bytes(OLD)
+    check_apart(b, a)
+    b.symlink_to(a)
+    os.link(a, c)
+    for other in (a, b, c, tmp_path / "." / "a.npz"):
+        with pytest.raises(ValueError, match="are one file, which would be replaced; name another file"):
+            check_apart(other, a)
+    a.unlink()
+    with pytest.raises(ValueError, match="would be one file"):
+        check_apart(b, a)  # a link to what is not there yet
+    check_apart(c, a)
