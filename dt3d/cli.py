@@ -179,9 +179,9 @@ def triangulate(
 
 @app.command
 def verify(file: Path) -> None:
-    """Check with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
+    """Prove with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
 
-    Prints a sentence for each invariant; the exit status is 1 if one is broken.
+    Prints a sentence for each invariant; the exit status is 1 if one is broken. Orientation breaks none.
 
     Parameters
     ----------
