@@ -36,7 +36,7 @@ def read_las(path: Path) -> np.ndarray:
         if not packed and header.offset_to_point_data + promised * header.point_format.size > size:
             msg = f"{path} is cut off: {promised} points are promised, more than its {size} bytes hold"
             raise ValueError(msg)
-        elif not packed and not header.number_of_evlrs and header.point_format.id not in WITH_WAVES:
+        if not packed and not header.number_of_evlrs and header.point_format.id not in WITH_WAVES:
             left = size - header.offset_to_point_data - promised * header.point_format.size
             if left >= header.point_format.size:
                 msg = f"{path} is damaged: {left} bytes follow the {promised} points that are promised"
