@@ -9,6 +9,7 @@ and the old one is as it was. After SIGKILL or a power cut the file aside may be
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import secrets
 import shutil
@@ -58,8 +59,7 @@ def _aside(target: Path, old: os.stat_result | None) -> Iterator[Path]:
             # of a file that only some may read no copy lies about that all may read
             os.close(os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600 if old else 0o666))
             yield aside
-            with aside.open("rb+") as file:
-                os.fsync(file.fileno())  # some disks are full only now
+            _to_the_disk(aside)
             if old is not None:
                 _like(target, aside, old)
             os.replace(aside, target)
@@ -111,12 +111,23 @@ def _may_write(path: Path) -> bool:
     return os.access(path, wanted, effective_ids=os.access in os.supports_effective_ids)
 
 
+def _to_the_disk(aside: Path) -> None:
+    """Some disks say only now that they are full."""
+    with aside.open("rb+") as file:
+        try:
+            os.fsync(file.fileno())
+        except OSError as error:
+            if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # file systems that do not know of it
+                raise
+
+
 def _like(target: Path, aside: Path, old: os.stat_result) -> None:
-    """Give the new file the old one's permissions, and its owner where we may."""
+    """Give the new file the old one's permissions, and its owner, where we may."""
     if hasattr(os, "chown"):
         with contextlib.suppress(PermissionError):
             os.chown(aside, old.st_uid, old.st_gid)
-    shutil.copystat(target, aside)
+    with contextlib.suppress(PermissionError):
+        shutil.copystat(target, aside)
     os.utime(aside)
 
 

@@ -267,6 +267,28 @@ def test_a_folder_in_which_nothing_may_be_written(big, guarded):
     is_as_it_was(guarded)
 
 
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EIO, errno.EDQUOT])
+def test_a_disk_that_fails_only_when_it_is_asked(target, monkeypatch, number):
+    def fail(*_):
+        raise OSError(number, os.strerror(number))
+
+    for call in ("fsync", "replace"):
+        with monkeypatch.context() as patch:
+            patch.setattr(os, call, fail)
+            with pytest.raises(OSError, match="cannot write .*the old file is as it was"):
+                write_csv(target, ["x"], [])
+        is_as_it_was(target)
+
+
+def test_a_file_system_without_fsync_will_do(target, monkeypatch):
+    def fail(*_):
+        raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+
+    monkeypatch.setattr(os, "fsync", fail)
+    write_csv(target, ["x"], [])
+    assert target.read_text() == "x\n"
+
+
 # what the new file takes over from the old one
 
 
