@@ -40,7 +40,13 @@ class Verdict(SystemExit):
 
 
 class Printer(Console):
-    """A console whose failures reach `run`: rich itself would end the process with status 1."""
+    """A console whose failures reach `run`: rich itself would end the process with status 1.
+
+    Nor does it draw stars for the name of a file that has ``:star:`` in it.
+    """
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(emoji=False, **options)
 
     def on_broken_pipe(self) -> None:
         raise  # noqa: PLE0704  the BrokenPipeError that called this
