@@ -149,10 +149,9 @@ def triangulate(
     if picture is not None:
         check_picture_path(picture)
         check_apart(picture, output)
+        check_apart(picture, source)
     if not force:
         check_apart(output, source, way_out="name another file, or say --force")
-        if picture is not None:
-            check_apart(picture, source)
     on = _machine(machine, processors)
 
     console = Printer(highlight=False)
