@@ -384,7 +384,9 @@ def test_output_that_is_the_input_is_refused_unless_forced(points, tmp_path, cap
         )
     picture = tmp_path / "a.png"
     picture.symlink_to(mesh)
-    assert "one file" in fails(capsys, "triangulate", mesh, "-o", tmp_path / "b.npz", "--picture", picture)
+    words = ["triangulate", mesh, "-o", tmp_path / "b.npz", "--picture", picture]
+    assert "one file" in fails(capsys, *words)
+    assert "one file" in fails(capsys, *words, "--force")
     assert "one file" in fails(capsys, "triangulate", points, "-o", mesh, "--picture", picture, "--force")
     assert "one file" in fails(capsys, "view", mesh, "--screenshot", picture)
     assert mesh.read_bytes() == before
