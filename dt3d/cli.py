@@ -358,6 +358,6 @@ def _machine(machine: str | None, processors: int | None) -> Any:
 
 
 if __name__ == "__main__":
-    import dt3d_command
+    from dt3d import _command
 
-    sys.exit(dt3d_command.main())
+    sys.exit(_command.main())

@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+import dt3d
+
 
 def loaded_by(statement):
     code = f"import sys\n{statement}\nprint(*sorted(sys.modules))"
@@ -13,10 +15,18 @@ def loaded_by(statement):
 
 
 def test_importing_dt3d_loads_no_viewer_and_no_command_line():
-    modules = loaded_by("import dt3d")
+    assert "jax" not in loaded_by("import dt3d")
+    modules = loaded_by("import dt3d; dt3d.Delaunay")
     assert "jax" in modules
     viewers = {"pyvista", "vtk", "vtkmodules", "matplotlib", "meshio"}
     assert modules.isdisjoint(viewers | {"numba", "rich", "cyclopts", "scipy.spatial"})
+
+
+def test_every_public_name_is_there_and_no_other():
+    assert {name for name in dt3d.__all__ if getattr(dt3d, name) is not None} == set(dt3d.__all__)
+    assert set(dt3d.__all__) <= set(dir(dt3d))
+    with pytest.raises(AttributeError, match="module 'dt3d' has no attribute 'Delauney'"):
+        dt3d.Delauney  # noqa: B018
 
 
 def test_scanvec_does_not_know_dt3d():

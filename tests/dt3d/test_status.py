@@ -203,7 +203,7 @@ class Finder:
             atexit.register(os.kill, os.getpid(), signal.SIGINT)
 
 sys.meta_path.insert(0, Finder())
-from dt3d_command import main
+from dt3d._command import main
 sys.argv = ["dt3d", *{words!r}]
 sys.exit(main())
 """
@@ -212,7 +212,7 @@ sys.exit(main())
 @pytest.mark.parametrize(
     ("module", "words"),
     [
-        ("dt3d", []),  # before anything of ours
+        ("dt3d.cli", []),  # before anything of ours
         ("jax", []),  # while libraries load
         ("dt3d.plot", ["view", "none.vtu", "--screenshot", "none.png"]),  # within one of them
         ("the end", ["experiment"]),
@@ -226,12 +226,12 @@ def test_ctrl_c_before_and_after_the_commands(module, words):
 
 
 def test_a_package_that_is_missing_is_one_line(monkeypatch, capsys):
-    import dt3d_command
+    from dt3d import _command
 
     monkeypatch.setitem(sys.modules, "dt3d.cli", None)
     handler = signal.getsignal(signal.SIGINT)
     try:
-        assert dt3d_command.main() == 2
+        assert _command.main() == 2
     finally:
         signal.signal(signal.SIGINT, handler)
     assert re.fullmatch("dt3d: .*dt3d.cli.*\n", capsys.readouterr().err)
@@ -244,7 +244,7 @@ def test_a_package_that_is_missing_is_one_line(monkeypatch, capsys):
 STREAMS = """
 import os, sys
 import dt3d.cli
-import dt3d_command
+from dt3d import _command
 
 def case(words, out, err):
     child = os.fork()
@@ -261,7 +261,7 @@ def case(words, out, err):
         else:
             opened = {{"broken": broken, "log": log}}.get(what) or os.open(what, os.O_WRONLY)
             os.dup2(opened, number)
-    sys.exit(dt3d_command.main())
+    sys.exit(_command.main())
 
 import dt3d.experiments
 print(*[case(*row) for row in {table!r}])

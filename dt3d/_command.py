@@ -1,7 +1,7 @@
 """The command ``dt3d`` from its first moment on; it loads next to nothing before Ctrl-C is taken care of.
 
-Loading dt3d and JAX takes a second, in which Python would answer Ctrl-C with a traceback. This package lies
-outside of dt3d because whatever lies inside loads that first.
+Loading JAX takes a second, in which Python would answer Ctrl-C with a traceback. So this module imports
+nothing of the package before Ctrl-C has an answer, and `dt3d` itself loads what it has when it is first used.
 """
 
 from __future__ import annotations
