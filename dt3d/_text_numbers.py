@@ -120,9 +120,12 @@ def decimal_mark(rows: Lines, delimiter: str | None, columns: list[int]) -> str:
     for k, line in enumerate(rows.text):
         if "," not in line:
             continue
-        cells = line.split(delimiter)
+        try:
+            cells = split(line, delimiter)
+        except ValueError as error:
+            raise rows.error(k, str(error)) from None
         for j in columns:
-            cell = cells[j].strip(' "') if j < len(cells) else ""
+            cell = cells[j] if j < len(cells) else ""
             if not THOUSANDS.fullmatch(cell):
                 if DECIMAL_COMMA.fullmatch(cell):
                     return ","

@@ -260,6 +260,9 @@ def test_decimal_commas(tmp_path, delimiter):
     text = table(delimiter=delimiter).replace(".", ",")
     for header in ("", delimiter.join("xyz") + "\n"):
         np.testing.assert_array_equal(read(tmp_path, header + text, ".txt"), POINTS)
+    if delimiter != ";":
+        labelled = "name x y z\n" + "".join(f"p{k} {row}\n" for k, row in enumerate(text.splitlines()))
+        np.testing.assert_array_equal(read(tmp_path, labelled.replace("\t", " "), ".txt"), POINTS)
     # commas elsewhere do not matter
     named = "time;x;y;z\n" + table([["12,5", *cells] for cells in CELLS], ";")
     np.testing.assert_array_equal(read(tmp_path, named, ".txt"), POINTS)
@@ -292,6 +295,10 @@ def test_quotes(tmp_path):
     np.testing.assert_array_equal(read(tmp_path, table(rows)), POINTS)
     np.testing.assert_array_equal(read(tmp_path, table(rows, " ; ")), POINTS)
     np.testing.assert_array_equal(read(tmp_path, table(rows, "  "), ".txt"), POINTS)
+    commas = table([['"a; b"', *row] for row in rows], "\t").replace(".", ",")
+    for delimiter in ("\t", " "):
+        text = f"name x y z\n{commas}".replace("\t", delimiter)
+        np.testing.assert_array_equal(read(tmp_path, text, ".txt"), POINTS)
     refused(tmp_path, with_cell(2, 1, '"2.5'), "line 3: quotes that do not match")
     refused(tmp_path, with_cell(0, 1, '"2.5'), "line 1: quotes that do not match")
     refused(tmp_path, with_cell(2, 1, '"2"5'), "line 3: quotes that do not match")
