@@ -66,6 +66,15 @@ def test_a_first_row_of_faults_alone_is_no_header(tmp_path, row):
     refused(tmp_path, row + "\n" + table(), "line 1, column 1: ")
 
 
+@pytest.mark.parametrize(
+    ("first", "column"),
+    [("O.5,0.5,0.5", 1), ("0.5,0.5,", 3), ("0,5;0,5;0.5 m", 3), ("1.0,,3.0", 2), ("0.1,0.2,-", 3), ("p,1,2", 1)],
+)
+def test_a_first_row_with_a_typo_is_an_error(tmp_path, first, column):
+    rows = table(delimiter=";").replace(".", ",") if ";" in first else table()
+    refused(tmp_path, f"{first}\n{rows}", f"line 1, column {column}: ")
+
+
 @pytest.mark.parametrize("change", [-1, 1, 2])
 @pytest.mark.parametrize("row", [0, 1, 3])
 @pytest.mark.parametrize("header", ["", "x,y,z\n"])
