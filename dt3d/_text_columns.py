@@ -185,7 +185,10 @@ def _chosen_columns(
         if found is not None:
             return found
         unnamed = 1 if width > 1 and not names[0] else 0  # pandas' index
-        if width - unnamed in (2, 3):
+        plain = [plain_name(name) for name in names[unnamed:]]
+        axes = ["x", "y", "z"]
+        misplaced = any(name in axes and name != axis for name, axis in zip(plain, axes, strict=False))
+        if len(plain) in (2, 3) and not misplaced:
             return list(range(unnamed, width))
         msg = f"{rows.path}: found columns {shown_names(names)}; {_WANTED}"
         raise ValueError(msg)

@@ -93,7 +93,7 @@ def _careful(rows: Lines, delimiter: str | None, columns: list[int], width: int,
         except ValueError as error:
             raise rows.error(k, str(error)) from None
         if len(cells) != width:
-            msg = f"{len(cells)} columns where {width} are expected: {shown(line)}"
+            msg = f"{len(cells)} column{'s' * (len(cells) != 1)} where {width} are expected: {shown(line)}"
             raise rows.error(k, msg)
         for i, j in enumerate(columns):
             try:

@@ -68,7 +68,7 @@ def test_a_first_row_of_faults_alone_is_no_header(tmp_path, row):
 
 @pytest.mark.parametrize(
     ("first", "column"),
-    [("O.5,0.5,0.5", 1), ("0.5,0.5,", 3), ("0,5;0,5;0.5 m", 3), ("1.0,,3.0", 2), ("0.1,0.2,-", 3), ("p,1,2", 1)],
+    [("O.5,0.5,0.5", 1), ("0.5,0.5,", 3), ("0,5;0,5;0.5 m", 3), ("1.0,,3.0", 2), ("1,2,-", 3), ("p,1,2", 1)],
 )
 def test_a_first_row_with_a_typo_is_an_error(tmp_path, first, column):
     rows = table(delimiter=";").replace(".", ",") if ";" in first else table()
@@ -166,6 +166,12 @@ def test_named_columns_are_found_among_others(tmp_path, header, front, back):
 )
 def test_headers_that_do_not_say_which_columns(tmp_path, header, complaint):
     refused(tmp_path, header + "\n" + table([[*cells, "5"] for cells in CELLS]), complaint)
+
+
+def test_an_axis_that_is_named_stays_where_its_name_is(tmp_path):
+    refused(tmp_path, "z,lat,lon\n" + table(), "found columns z, lat, lon; expected three, or a header")
+    np.testing.assert_array_equal(read(tmp_path, "lon,lat,z\n" + table()), POINTS)
+    np.testing.assert_array_equal(read(tmp_path, "z,y,x\n" + table()), POINTS[:, ::-1])
 
 
 def test_two_sets_of_coordinates(tmp_path):
