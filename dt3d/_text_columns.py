@@ -12,6 +12,7 @@ from ._text_header import coordinate_columns, is_header, plain_name
 from ._text_lines import COMMENT_MARKS, Lines, content, read_lines, shown, shown_names
 from ._text_numbers import decimal_mark, numbers
 
+_QUOTED = re.compile(r'"[^"]*"')
 _COMMAS_WITHIN = re.compile(r"[-+]?[0-9]+(,[0-9]+)*(\.[0-9]*)?([eEdD][-+]?[0-9]+)?")
 
 _WANTED = "expected three, or a header that names x, y and z"
@@ -89,6 +90,8 @@ def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
 
 def delimiter_of(line: str) -> str | None:
     """What stands between the cells of a line: a semicolon, a tab, a comma or white space (None)."""
+    if '"' in line:
+        line = _QUOTED.sub('""', line)  # what is in quotes tells nothing
     if ";" in line:
         return ";"
     if "\t" in line and not all(cell.strip().endswith(",") for cell in line.split("\t")[:-1]):
@@ -96,7 +99,8 @@ def delimiter_of(line: str) -> str | None:
     if "," not in line:
         return None
     words = line.split()
-    return None if len(words) > 1 and all(map(_COMMAS_WITHIN.fullmatch, words)) else ","
+    within = all("," not in word or _COMMAS_WITHIN.fullmatch(word) for word in words)
+    return None if len(words) > 1 and within else ","
 
 
 def _cells(rows: Lines, k: int, delimiter: str | None) -> list[str]:
@@ -181,7 +185,10 @@ def _chosen_columns(
         if found is not None:
             return found
         unnamed = 1 if width > 1 and not names[0] else 0  # pandas' index
-        if width - unnamed in (2, 3):
+        plain = [plain_name(name) for name in names[unnamed:]]
+        axes = ["x", "y", "z"]
+        misplaced = any(name in axes and name != axis for name, axis in zip(plain, axes, strict=False))
+        if len(plain) in (2, 3) and not misplaced:
             return list(range(unnamed, width))
         msg = f"{rows.path}: found columns {shown_names(names)}; {_WANTED}"
         raise ValueError(msg)

@@ -93,7 +93,7 @@ def _careful(rows: Lines, delimiter: str | None, columns: list[int], width: int,
         except ValueError as error:
             raise rows.error(k, str(error)) from None
         if len(cells) != width:
-            msg = f"{len(cells)} columns where {width} are expected: {shown(line)}"
+            msg = f"{len(cells)} column{'s' * (len(cells) != 1)} where {width} are expected: {shown(line)}"
             raise rows.error(k, msg)
         for i, j in enumerate(columns):
             try:
@@ -120,9 +120,12 @@ def decimal_mark(rows: Lines, delimiter: str | None, columns: list[int]) -> str:
     for k, line in enumerate(rows.text):
         if "," not in line:
             continue
-        cells = line.split(delimiter)
+        try:
+            cells = split(line, delimiter)
+        except ValueError as error:
+            raise rows.error(k, str(error)) from None
         for j in columns:
-            cell = cells[j].strip(' "') if j < len(cells) else ""
+            cell = cells[j] if j < len(cells) else ""
             if not THOUSANDS.fullmatch(cell):
                 if DECIMAL_COMMA.fullmatch(cell):
                     return ","

@@ -42,7 +42,7 @@ def read_obj(path: Path) -> np.ndarray:
     """
     lines = _continued(content(read_lines(path), ("#",)))
     vertices: dict[int, list[int]] = {}
-    kept = []
+    kept: list[int] = []
     for k, line in enumerate(lines.text):
         cells = line.split()
         if cells[0] not in KEYWORDS:

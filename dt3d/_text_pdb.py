@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ._text_cells import NUMBER
 from ._text_lines import Lines, read_lines, shown
 
 LONGEST_LINE = 1000
@@ -26,6 +25,7 @@ _NO_ATOMS = """
 RECORDS = set(_NO_ATOMS.split())
 """The records that are no atoms: of all versions of the format, and of refinement and docking programs."""
 
+_FIELD = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+|nan|inf)", re.ASCII | re.IGNORECASE)
 # a coordinate is written with three decimals, so even numbers that touch can be told apart
 _COORDINATE = r"\s*(-?[0-9]+\.[0-9]{3})"
 _THREE = re.compile(rf"(?<![0-9.\-]){_COORDINATE}{_COORDINATE}{_COORDINATE}(?![0-9])", re.ASCII)
@@ -77,14 +77,14 @@ def _coordinates(lines: Lines, k: int) -> list[float]:
     line = lines.text[k]
     if line[34:35] == line[42:43] == line[50:51] == "." or len(line) < 54:
         found = [line[field].strip() for field in FIELDS]
-        if len(line) < 54 or not all(map(NUMBER.fullmatch, found)) or line[54:55].isdigit():
+        if len(line) < 54 or not all(map(_FIELD.fullmatch, found)) or line[54:55].isdigit():
             found = []
     elif shifted := _THREE.search(line, 26):
         found = list(shifted.groups())
     else:
         # another precision, which is believed if blanks or the line's end stand around the columns
         found = [line[field].strip() for field in FIELDS]
-        if not all(map(NUMBER.fullmatch, found)) or line[29] != " " or line[54:55] not in ("", " "):
+        if not all(map(_FIELD.fullmatch, found)) or line[29] != " " or line[54:55] not in ("", " "):
             found = []
     if not found:
         msg = f"an atom's coordinates (columns 31 to 54) are not numbers: {shown(line[26:66])}"

@@ -147,6 +147,7 @@ def test_pdb(tmp_path, rows):
         (lambda row: row.replace("  ", "\t"), r"an atom's coordinates"),
         (lambda row: row[:30] + "        " + row[38:], "an atom's coordinates"),
         (lambda row: row[:33] + "x" + row[34:], "an atom's coordinates"),
+        (lambda row: row[:36] + "d" + row[37:], "an atom's coordinates"),
         (lambda row: "BTOM  " + row[6:], "'BTOM' is not a record of a PDB file; it may be a damaged atom"),
         (lambda row: " " + row, "an atom that does not start where the line starts"),
         (lambda row: "REMARK 1 " + row, "an atom that does not start where the line starts"),
@@ -159,6 +160,12 @@ def test_an_atom_that_is_not_understood_is_an_error_that_names_its_line(tmp_path
     rows = pdb()
     rows[k] = change(rows[k])
     refused(tmp_path, lines(["REMARK", *rows, "END"]), ".pdb", f"line {k + 2}.*: .*{complaint}")
+
+
+def test_nan_among_atoms_is_returned(tmp_path):
+    rows = [atom("1", [np.nan, 1.5, -2.25]), atom("2", [1.25, np.inf, 3])]
+    points = read(tmp_path, lines(rows), ".pdb")
+    np.testing.assert_array_equal(points, [[np.nan, 1.5, -2.25], [1.25, np.inf, 3]])
 
 
 def test_great_numbers_in_shifted_columns_are_not_read_from_the_wrong_ones(tmp_path):

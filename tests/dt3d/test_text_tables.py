@@ -66,6 +66,15 @@ def test_a_first_row_of_faults_alone_is_no_header(tmp_path, row):
     refused(tmp_path, row + "\n" + table(), "line 1, column 1: ")
 
 
+@pytest.mark.parametrize(
+    ("first", "column"),
+    [("O.5,0.5,0.5", 1), ("0.5,0.5,", 3), ("0,5;0,5;0.5 m", 3), ("1.0,,3.0", 2), ("1,2,-", 3), ("p,1,2", 1)],
+)
+def test_a_first_row_with_a_typo_is_an_error(tmp_path, first, column):
+    rows = table(delimiter=";").replace(".", ",") if ";" in first else table()
+    refused(tmp_path, f"{first}\n{rows}", f"line 1, column {column}: ")
+
+
 @pytest.mark.parametrize("change", [-1, 1, 2])
 @pytest.mark.parametrize("row", [0, 1, 3])
 @pytest.mark.parametrize("header", ["", "x,y,z\n"])
@@ -157,6 +166,12 @@ def test_named_columns_are_found_among_others(tmp_path, header, front, back):
 )
 def test_headers_that_do_not_say_which_columns(tmp_path, header, complaint):
     refused(tmp_path, header + "\n" + table([[*cells, "5"] for cells in CELLS]), complaint)
+
+
+def test_an_axis_that_is_named_stays_where_its_name_is(tmp_path):
+    refused(tmp_path, "z,lat,lon\n" + table(), "found columns z, lat, lon; expected three, or a header")
+    np.testing.assert_array_equal(read(tmp_path, "lon,lat,z\n" + table()), POINTS)
+    np.testing.assert_array_equal(read(tmp_path, "z,y,x\n" + table()), POINTS[:, ::-1])
 
 
 def test_two_sets_of_coordinates(tmp_path):
@@ -260,6 +275,9 @@ def test_decimal_commas(tmp_path, delimiter):
     text = table(delimiter=delimiter).replace(".", ",")
     for header in ("", delimiter.join("xyz") + "\n"):
         np.testing.assert_array_equal(read(tmp_path, header + text, ".txt"), POINTS)
+    if delimiter != ";":
+        labelled = "name x y z\n" + "".join(f"p{k} {row}\n" for k, row in enumerate(text.splitlines()))
+        np.testing.assert_array_equal(read(tmp_path, labelled.replace("\t", " "), ".txt"), POINTS)
     # commas elsewhere do not matter
     named = "time;x;y;z\n" + table([["12,5", *cells] for cells in CELLS], ";")
     np.testing.assert_array_equal(read(tmp_path, named, ".txt"), POINTS)
@@ -292,6 +310,10 @@ def test_quotes(tmp_path):
     np.testing.assert_array_equal(read(tmp_path, table(rows)), POINTS)
     np.testing.assert_array_equal(read(tmp_path, table(rows, " ; ")), POINTS)
     np.testing.assert_array_equal(read(tmp_path, table(rows, "  "), ".txt"), POINTS)
+    commas = table([['"a; b"', *row] for row in rows], "\t").replace(".", ",")
+    for delimiter in ("\t", " "):
+        text = f"name x y z\n{commas}".replace("\t", delimiter)
+        np.testing.assert_array_equal(read(tmp_path, text, ".txt"), POINTS)
     refused(tmp_path, with_cell(2, 1, '"2.5'), "line 3: quotes that do not match")
     refused(tmp_path, with_cell(0, 1, '"2.5'), "line 1: quotes that do not match")
     refused(tmp_path, with_cell(2, 1, '"2"5'), "line 3: quotes that do not match")
