@@ -195,8 +195,10 @@ def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, sla
             free = c
             free_count += 1
         if count <= 1 << NARROW:
-            link_narrow(mesh, p, q, r, slots, facets, edges)
-        elif not link_wide(mesh, p, q, r, slots, facets, keys, values):
+            linked = link_narrow(mesh, p, q, r, slots, facets, edges)
+        else:
+            linked = link_wide(mesh, p, q, r, slots, facets, keys, values)
+        if not linked:
             result = TORN_CAVITY
             break
         unproved = round_spheres(xs, ys, zs, lengths, p, q, r, slots, facets, x, y, z, reach, spheres, radii)

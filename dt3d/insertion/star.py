@@ -46,20 +46,24 @@ def link_narrow(mesh, p, q, r, slots, facets, edges):
     """Make neighbours of star tetrahedra that share an edge of the rim, in a table of directed edges.
 
     The facet opposite p belongs to the directed edge (q, r) as seen from the site, and to (r, q) as seen
-    from the other tetrahedron that has it.
+    from the other tetrahedron that has it. Whether what was written and what was read have one sum: in a torn
+    star a place is read that was not written.
     """
+    rest = 0
     for f in range(facets):
         i, j, k = numba.int64(p[f]), numba.int64(q[f]), numba.int64(r[f])
         t = numba.int64(slots[f]) << 2
         edges[j << NARROW | k] = t | 1
         edges[k << NARROW | i] = t | 2
         edges[i << NARROW | j] = t | 3
+        rest += 3 * t + 6
     for f in range(facets):
         i, j, k = numba.int64(p[f]), numba.int64(q[f]), numba.int64(r[f])
         t = 8 * numba.int64(slots[f])
-        mesh[t + 5] = edges[k << NARROW | j]
-        mesh[t + 6] = edges[i << NARROW | k]
-        mesh[t + 7] = edges[j << NARROW | i]
+        a, b, c = edges[k << NARROW | j], edges[i << NARROW | k], edges[j << NARROW | i]
+        mesh[t + 5], mesh[t + 6], mesh[t + 7] = a, b, c
+        rest -= numba.int64(a) + numba.int64(b) + numba.int64(c)
+    return rest == 0
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -149,6 +149,9 @@ def test_edges_of_a_torn_star_are_searched_in_vain():
     keys, values = np.empty(64, np.int64), np.empty(64, np.uint32)
     assert star.link_wide(mesh, *facets, slots, 4, keys, values)
     assert not star.link_wide(mesh, *facets, slots, 3, keys, values)
+    edges = np.zeros(1 << 2 * star.NARROW, np.uint32)
+    assert not star.link_narrow(mesh, *facets, slots, 3, edges)
+    assert star.link_narrow(mesh, *facets, slots, 4, edges)
 
 
 def test_a_thread_that_is_alone_does_not_defer(broken):
