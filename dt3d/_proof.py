@@ -188,7 +188,7 @@ def prove(
         f"a point inside the first {words['simplex']} is in no other one",
         lambda: space.count_containing(sites, simplices, w),
     )
-    hull = np.empty((0, corners - 1), np.int64) if checks.stopped else _hull(space, simplices, pairs)
+    hull = np.empty((0, corners - 1), np.int32) if checks.stopped else _hull(space, simplices, pairs)
     checks.add(
         f"that point is behind every {words['facet']} of the hull",
         lambda: space.count_facing(sites, simplices[0], hull, w),
