@@ -27,7 +27,7 @@ about x, whose corners lie on edges of B and are convex by (7), so in a convex p
 almost any two points of K is in K; K is closed, hence convex. It is the convex hull of the sites. (That local
 convexity is enough for closed connected sets: H. Tietze 1928, S. Nakajima 1928. That for a closed surface of
 triangles with (6) and (7) one ray decides: K. Mehlhorn et al., Checking geometric programs or verification of
-geometric structures, Computational Geometry 12, 1999, section 2.)
+geometric structures, Computational Geometry 12, 1999.)
 
 *It is face to face.* Within K, the tetrahedron beyond a facet is the one that shares the facet. So
 those around a point p that have p as a vertex are never left by crossing facets at p, and every tetrahedron
