@@ -17,10 +17,10 @@ is a finite number of exact signs or a comparison of indices:
 By (2) and (3) the boundary of the sum of all tetrahedra is the sum of B: where two meet, the facet cancels.
 So the sum of the tetrahedra and the sum of the cones from x over B have the same boundary, and are the same
 for almost all y, since no chain of tetrahedra in space but zero is without boundary. By (6) all cones count
-positively. So w(y) is the number of cones that contain y. Near x that is 1, by (5), and a cone that there is
-near x is one everywhere along its rays. So almost every ray from x meets B once; the cones, and with them the
-tetrahedra, cover without overlap a body K that is a star about x and bounded by B. (A mesh that winds twice,
-or has two sheets, fails here: w is constant off the hull, and not 1.)
+positively. So w(y) is the number of cones that contain y. Near x it is 1, by (5), and there the cones are
+counted by rays: almost every ray from x meets B once. So the cones, and with them the tetrahedra, cover
+without overlap a body K that is a star about x and bounded by B. (A mesh that winds twice, or has two sheets,
+fails here: where hull facets turn their backs to x, w(x) counts how often the hull goes round.)
 
 *The star is convex.* Almost every plane through x misses the vertices of B. It cuts K in a polygon, a star
 about x, whose corners lie on edges of B and are convex by (7), so in a convex polygon. So the segment between
