@@ -8,7 +8,7 @@ import numpy as np
 
 
 def check_simplices(simplices: Any, sites: int, corners: int, name: str = "simplices") -> np.ndarray:
-    """Simplices as int64 (m, corners), each entry the row of one of the sites.
+    """Simplices as int32 (m, corners), each entry the row of one of the sites.
 
     Raises
     ------
@@ -19,7 +19,7 @@ def check_simplices(simplices: Any, sites: int, corners: int, name: str = "simpl
 
 
 def check_neighbors(neighbors: Any, simplices: int, corners: int) -> np.ndarray:
-    """Neighbours as int64 (simplices, corners), each entry the row of a simplex or -1 for none.
+    """Neighbours as int32 (simplices, corners), each entry the row of a simplex or -1 for none.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def check_neighbors(neighbors: Any, simplices: int, corners: int) -> np.ndarray:
 
 
 def check_duplicates(duplicates: Any, sites: int) -> np.ndarray:
-    """Duplicates as int64 (k, 2): rows of a site and of the equal one that stands for it.
+    """Duplicates as int32 (k, 2): rows of a site and of the equal one that stands for it.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def _check(
         msg = f"{name} must be integers of {shape}; the rows that came do not have one length ({error})"
         raise ValueError(msg) from None
     if given.shape == (0,):  # an empty list
-        return np.empty((0, columns), np.int64)
+        return np.empty((0, columns), np.int32)
     if given.dtype.kind not in "iu":
         msg = f"{name} must be integers of {shape}, got dtype {given.dtype}"
         raise ValueError(msg)
@@ -69,4 +69,4 @@ def _check(
     if given.size and not least <= int(given.min()) <= int(given.max()) < end:
         msg = f"{name} name {of_what} {given.min()} to {given.max()}, but {known}"
         raise ValueError(msg)
-    return given.astype(np.int64)
+    return given.astype(np.int32, order="C")  # there are less than 2^31 of anything

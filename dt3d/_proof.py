@@ -17,17 +17,17 @@ is a finite number of exact signs or a comparison of indices:
 By (2) and (3) the boundary of the sum of all tetrahedra is the sum of B: where two meet, the facet cancels.
 So the sum of the tetrahedra and the sum of the cones from x over B have the same boundary, and are the same
 for almost all y, since no chain of tetrahedra in space but zero is without boundary. By (6) all cones count
-positively. So w(y) is the number of cones that contain y. Near x that is 1, by (5), and a cone that there is
-near x is one everywhere along its rays. So almost every ray from x meets B once; the cones, and with them the
-tetrahedra, cover without overlap a body K that is a star about x and bounded by B. (A mesh that winds twice,
-or has two sheets, fails here: w is constant off the hull, and not 1.)
+positively. So w(y) is the number of cones that contain y. Near x it is 1, by (5), and there the cones are
+counted by rays: almost every ray from x meets B once. So the cones, and with them the tetrahedra, cover
+without overlap a body K that is a star about x and bounded by B. (A mesh that winds twice, or has two sheets,
+fails here: where hull facets turn their backs to x, w(x) counts how often the hull goes round.)
 
 *The star is convex.* Almost every plane through x misses the vertices of B. It cuts K in a polygon, a star
 about x, whose corners lie on edges of B and are convex by (7), so in a convex polygon. So the segment between
 almost any two points of K is in K; K is closed, hence convex. It is the convex hull of the sites. (That local
 convexity is enough for closed connected sets: H. Tietze 1928, S. Nakajima 1928. That for a closed surface of
 triangles with (6) and (7) one ray decides: K. Mehlhorn et al., Checking geometric programs or verification of
-geometric structures, Computational Geometry 12, 1999, section 2.)
+geometric structures, Computational Geometry 12, 1999.)
 
 *It is face to face.* Within K, the tetrahedron beyond a facet is the one that shares the facet. So
 those around a point p that have p as a vertex are never left by crossing facets at p, and every tetrahedron
@@ -188,7 +188,7 @@ def prove(
         f"a point inside the first {words['simplex']} is in no other one",
         lambda: space.count_containing(sites, simplices, w),
     )
-    hull = np.empty((0, corners - 1), np.int64) if checks.stopped else _hull(space, simplices, pairs)
+    hull = np.empty((0, corners - 1), np.int32) if checks.stopped else _hull(space, simplices, pairs)
     checks.add(
         f"that point is behind every {words['facet']} of the hull",
         lambda: space.count_facing(sites, simplices[0], hull, w),

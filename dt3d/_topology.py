@@ -50,10 +50,10 @@ def matched(facets: np.ndarray, backwards: np.ndarray | None = None) -> tuple[np
         for i in range(k):
             for j in range(i + 1, k):
                 backwards ^= facets[:, i] > facets[:, j]
-    columns = np.sort(facets, axis=1).astype(np.int64)
-    keys = [columns[:, -1] << 1 | backwards]
+    columns = np.sort(facets, axis=1)
+    keys = [columns[:, -1].astype(np.int64) << 1 | backwards]
     if k > 1:
-        keys.append(columns[:, 0] if k == 2 else columns[:, 0] << 32 | columns[:, 1])
+        keys.append(columns[:, 0] if k == 2 else columns[:, 0].astype(np.int64) << 32 | columns[:, 1])
     order = np.lexsort(keys)
     ordered = [key[order] for key in keys]
     ordered[0] >>= 1

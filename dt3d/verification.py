@@ -116,12 +116,13 @@ def _count_containing(sites, simplices, w):
 def _count_facing(sites, simplex, hull, w):
     count = 0
     for i in range(len(hull)):
+        sign = 0
         for j in range(4):
             # seen from outside a facet turns to the left: what is behind it has negative orientation
             sign = orient3d(sites, hull[i, 0], hull[i, 1], hull[i, 2], simplex[j], w)
             if sign != 0:
-                count += sign > 0
                 break
+        count += sign >= 0
     return count
 
 

@@ -95,7 +95,7 @@ def _count_inside(sites, triangles, apex, perturbed, w):
 
 @numba.njit(cache=True)
 def _side(sites, triangle, a, b, w):
-    """Where x lies from the line ab: the first vertex of the triangle that is not on it tells."""
+    """Where x lies from the line ab, never 0: the first vertex of the triangle that is not on it tells."""
     for j in range(3):
         sign = orient2d(sites, a, b, triangle[j], w)
         if sign != 0:
@@ -109,9 +109,9 @@ def _count_containing(sites, triangles, w):
     for i in range(1, len(triangles)):
         a, b, c = triangles[i, 0], triangles[i, 1], triangles[i, 2]
         count += (
-            _side(sites, triangles[0], a, b, w) > 0
-            and _side(sites, triangles[0], b, c, w) > 0
-            and _side(sites, triangles[0], c, a, w) > 0
+            _side(sites, triangles[0], a, b, w) >= 0
+            and _side(sites, triangles[0], b, c, w) >= 0
+            and _side(sites, triangles[0], c, a, w) >= 0
         )
     return count
 
@@ -120,7 +120,7 @@ def _count_containing(sites, triangles, w):
 def _count_facing(sites, triangle, hull, w):
     count = 0
     for i in range(len(hull)):
-        count += _side(sites, triangle, hull[i, 0], hull[i, 1], w) < 0
+        count += _side(sites, triangle, hull[i, 0], hull[i, 1], w) <= 0
     return count
 
 

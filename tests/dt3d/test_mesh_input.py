@@ -72,7 +72,7 @@ def test_points_that_are_none(case):
     hole = points.copy()
     hole[7, 1] = np.nan
     for wrong, text in [
-        (points + 1j, f"points must be real numbers of shape (n, {d}), got dtype complex128"),
+        (points + 1j, "points must be real numbers, got dtype complex128"),
         (hole, "points must be finite: 1 rows have NaN or infinity, the first is row 7"),
         (np.ones((20, d + 1)), f"points must have shape (n, {d}), got (20, {d + 1})"),
         (points[:0], "points are empty"),

@@ -9,7 +9,7 @@ from dt3d.verification import verify
 from .brute import delaunay
 from .meshes import facets_of
 
-RUNS = {2: 120, 3: 50}
+RUNS = {2: 80, 3: 40}
 
 
 def drop(rng, points, rows):
