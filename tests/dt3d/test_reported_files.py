@@ -43,13 +43,6 @@ def lattice(size):
 
 
 UNKNOWN = "unknown extension"
-AWAITED = {
-    "pcd.pcd",
-    "ply_camera_first.ply",
-    "ply_camera_last.ply",
-    "ply_vertex_list.ply",
-    "ply_vertex_list_ascii.ply",
-}
 TABLE = {
     "ansys.csv": same,
     "ansys4.csv": same,
@@ -141,27 +134,27 @@ TABLE = {
     "paraview.csv": same,
     "paraview_data_first.csv": same,
     "paraview_new.csv": same,
-    "pcd.pcd": single,
+    "pcd.pcd": same,
     "percent_comment.txt": same,
-    "ply_ascii.ply": single,
+    "ply_ascii.ply": same,
     "ply_be.ply": single,
-    "ply_bunny_conf.ply": single,
-    "ply_camera_first.ply": single,
-    "ply_camera_last.ply": single,
-    "ply_cloudcompare_objinfo.ply": single,
+    "ply_bunny_conf.ply": same,
+    "ply_camera_first.ply": same,
+    "ply_camera_last.ply": same,
+    "ply_cloudcompare_objinfo.ply": same,
     "ply_cloudcompare_objinfo_bin.ply": single,
-    "ply_crlf.ply": single,
+    "ply_crlf.ply": same,
     "ply_double_utm.ply": far,
     "ply_empty.ply": r"ply_empty\.ply",
     "ply_faces.ply": single,
     "ply_gaussian_splat.ply": single,
     "ply_le.ply": single,
     "ply_normals_first.ply": single,
-    "ply_quads.ply": single,
+    "ply_quads.ply": same,
     "ply_rgb.ply": single,
     "ply_truncated.ply": r"ply_truncated\.ply",
     "ply_vertex_list.ply": single,
-    "ply_vertex_list_ascii.ply": single,
+    "ply_vertex_list_ascii.ply": same,
     "polar.obj": same,
     "qhull.txt": same,
     "quad.off": same,
@@ -212,8 +205,6 @@ def folder():
 
 @pytest.mark.parametrize("name", TABLE)
 def test_each_file_is_read_whole_or_refused_by_its_sentence(folder, name, capfd):
-    if name in AWAITED:
-        pytest.skip("its reader is on its way")
     right = TABLE[name]
     if isinstance(right, str):
         with pytest.raises((ValueError, OSError), match=right) as error:
