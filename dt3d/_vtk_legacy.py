@@ -68,6 +68,9 @@ def read_legacy(path: Path) -> dict[str, np.ndarray]:
                 break  # a kind of attribute that is not known; points and cells come before all of them
         else:
             _structure(cursor, word, found)
+    if ("offsets" in found) != ("types" in found):
+        msg = f"{path} is cut off: CELLS and CELL_TYPES go together"
+        raise ValueError(msg)
     points = _points(path, kind, found)
     if not len(points):
         msg = f"{path} holds no points (data set {kind.upper()[:40] or 'missing'})"
