@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -23,8 +24,9 @@ class Cursor:
         "<" or ">" if arrays are binary, of this byte order. Arrays are text if left out.
     """
 
-    def __init__(self, path: Path, data: bytes, order: str | None = None) -> None:
-        self.path, self.data, self.order = path, data, order
+    def __init__(self, path: Path, data: bytes, order: Literal["<", ">"] | None = None) -> None:
+        self.path, self.data = path, data
+        self.order: Literal["<", ">"] | None = order
         self.at = 0
 
     def word(self, what: str) -> str:

@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ET
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -46,7 +46,7 @@ class Arrays:
 
     def __init__(self, path: Path, root: ET.Element, appended: bytes, appended_base64: bool) -> None:
         self.path, self.appended, self.appended_base64 = path, appended, appended_base64
-        self.order = ">" if root.get("byte_order") == "BigEndian" else "<"
+        self.order: Literal["<", ">"] = ">" if root.get("byte_order") == "BigEndian" else "<"
         self.size = np.dtype("u8" if root.get("header_type") == "UInt64" else "u4").newbyteorder(self.order)
         self.compressor = root.get("compressor")
 

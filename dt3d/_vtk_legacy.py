@@ -211,8 +211,8 @@ def _points(path: Path, kind: str, found: dict[str, np.ndarray]) -> np.ndarray:
         extent = [0, int(last[0]), 0, int(last[1]), 0, int(last[2])]
         origin, spacing = found.get("origin", np.zeros(3)), found.get("spacing", np.ones(3))
         return image(path, extent, origin.tolist(), spacing.tolist(), np.eye(3))
-    axes = [found.get(f"{axis}_coordinates") for axis in "xyz"]
-    if kind == "rectilinear_grid" and all(axis is not None for axis in axes):
+    axes = [found[f"{axis}_coordinates"] for axis in "xyz" if f"{axis}_coordinates" in found]
+    if kind == "rectilinear_grid" and len(axes) == 3:
         if [len(axis) for axis in axes] != found.get("dimensions", np.zeros(3)).tolist():
             msg = f"{path}: the coordinates of the rectilinear grid are not as many as its dimensions say"
             raise ValueError(msg)

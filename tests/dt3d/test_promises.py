@@ -276,7 +276,7 @@ def test_the_commands_end_with_one_line_and_status_2(tmp_path, name, content, ca
 
 @pytest.mark.parametrize(
     ("command", "name", "content"),
-    [("verify", "a.msh", bytes(300)), ("triangulate", "b.vtk", b"# vtk DataFile Version 3.0\n\nBINARY\nDATASET ")],
+    [("verify", "a.msh", bytes(300)), ("triangulate", "b.vtk", b"# vtk DataFile Version 3.0\n\nBINARY\n")],
 )
 def test_a_process_of_its_own_ends_likewise(tmp_path, command, name, content):
     (tmp_path / name).write_bytes(content)
