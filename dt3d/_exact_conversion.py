@@ -12,16 +12,17 @@ WHOLE = 2**53  # integers up to this are float64 numbers, all of them
 GREATEST = "at most 1.8e308"
 
 CURES = {
-    "b": "{what}.astype(np.float64) makes them 0 and 1",
-    "c": "{what}.real drops imaginary parts that are zero",
-    "U": "{what}.astype(np.float64) reads numbers from text",
-    "S": "{what}.astype(np.float64) reads numbers from text",
-    "M": "({what} - {what}.min()) / np.timedelta64(1, 's') makes seconds of times",
-    "m": "{what} / np.timedelta64(1, 's') makes seconds of durations",
+    "b": "for 0 and 1 pass {whole}.astype(np.float64)",
+    "c": "if the imaginary parts are zero, pass {whole}.real",
+    "U": "for the numbers in text pass {whole}.astype(np.float64)",
+    "S": "for the numbers in text pass {whole}.astype(np.float64)",
+    "V": "for numbers of an extension of NumPy pass np.asarray({whole}).astype(np.float64)",
+    "M": "for seconds pass ({whole} - {whole}.min()) / np.timedelta64(1, 's')",
+    "m": "for seconds pass {whole} / np.timedelta64(1, 's')",
 }
 
 
-def to_float64(array: Any, what: str = "points") -> np.ndarray:
+def to_float64(array: Any, what: str = "points", whole: str | None = None) -> np.ndarray:
     """The numbers as float64 of the same shape; the array itself where it is float64 already.
 
     What is converted is converted back and compared, so the result equals what came. NaN and infinity pass.
@@ -33,6 +34,8 @@ def to_float64(array: Any, what: str = "points") -> np.ndarray:
         `decimal.Decimal`, `fractions.Fraction`, NumPy's scalars.
     what : str
         What the array is called in messages, such as "points".
+    whole : str, optional
+        An expression for what the caller may pass instead, if it is not the array: the table of a column.
 
     Raises
     ------
@@ -43,15 +46,15 @@ def to_float64(array: Any, what: str = "points") -> np.ndarray:
     given = _as_array(array)
     kind = given.dtype.kind
     if kind == "O":
-        return _from_objects(given, what)
+        return _from_objects(given, what, whole or what)
     if kind not in "iuf":
-        cure = f"; {CURES[kind].format(what=what)}" if kind in CURES else ""
+        cure = f"; {CURES[kind].format(whole=whole or what)}" if kind in CURES else ""
         msg = f"{what} must be real numbers, got dtype {given.dtype}{cure}"
         raise ValueError(msg)
     with np.errstate(all="ignore"):
         converted = given.astype(np.float64, copy=False)
     if given.dtype.itemsize >= 8 and given.size and given.dtype != np.float64:
-        _compare(given, converted, what)
+        _compare(given, converted, what, whole or what)
     return converted
 
 
@@ -68,7 +71,7 @@ def _as_array(array: Any) -> np.ndarray:
     return given
 
 
-def _compare(given: np.ndarray, converted: np.ndarray, what: str) -> None:
+def _compare(given: np.ndarray, converted: np.ndarray, what: str, whole: str) -> None:
     """Raise a ValueError where integers of 64 bits, or long doubles, differ from what they became."""
     if given.dtype.kind == "f":
         with np.errstate(all="ignore"):
@@ -81,10 +84,10 @@ def _compare(given: np.ndarray, converted: np.ndarray, what: str) -> None:
         changed = ~fits | (np.where(fits, converted, 0).astype(given.dtype) != given)
     if changed.any():
         index = np.unravel_index(int(np.argmax(changed)), given.shape)
-        raise _inexact(given[index], float(converted[index]), index, what)
+        raise _inexact(given[index], float(converted[index]), _place(index), what, whole)
 
 
-def _from_objects(given: np.ndarray, what: str) -> np.ndarray:
+def _from_objects(given: np.ndarray, what: str, whole: str) -> np.ndarray:
     converted = np.empty(given.shape)
     flat = converted.reshape(-1)
     for i, value in enumerate(given.flat):
@@ -93,6 +96,8 @@ def _from_objects(given: np.ndarray, what: str) -> np.ndarray:
         if isinstance(plain, bool | np.bool_) or not isinstance(plain, Real | Decimal):
             which = f"{_place(np.unravel_index(i, given.shape))} is {_shown(value)}"
             msg = f"{what} must be real numbers; {which}, of type {type(value).__name__}"
+            if value is None and given.ndim > 1:
+                msg += f"; drop such rows: pass {whole}[({whole} != None).all(axis=-1)]"
             raise ValueError(msg)
         try:
             flat[i] = number = float(plain)
@@ -101,18 +106,18 @@ def _from_objects(given: np.ndarray, what: str) -> np.ndarray:
         except ValueError:  # a signalling NaN
             flat[i] = number = np.nan
         if not np.isnan(number) and number != plain:
-            raise _inexact(value, number, np.unravel_index(i, given.shape), what)
+            raise _inexact(value, number, _place(np.unravel_index(i, given.shape)), what, whole)
     return converted
 
 
-def _inexact(value: Any, nearest: float, index: tuple[Any, ...], what: str) -> ValueError:
-    which = f"{_place(index)} of {what} is {_shown(value)}, which"
+def _inexact(value: Any, nearest: float, place: str, what: str, whole: str) -> ValueError:
+    which = f"{place} of {what} is {_shown(value)}, which"
     if np.isinf(nearest):
         return ValueError(f"{which} is too great for float64 ({GREATEST}); divide all by a power of two")
-    cure = f"pass np.asarray({what}).astype(np.float64)"
-    whole = isinstance(value, int | np.integer)
-    cure = f"subtract an offset, or {cure} to round" if whole else f"{cure} to round"
-    shown = f"{int(nearest)}" if whole else f"{nearest:.20g}"
+    integer = isinstance(value, int | np.integer)
+    array = whole if whole.startswith("np.") else f"np.asarray({whole})"
+    cure = f"{'subtract an offset, or ' if integer else ''}to round pass {array}.astype(np.float64)"
+    shown = f"{int(nearest)}" if integer else f"{nearest:.20g}"
     return ValueError(f"{which} float64 does not hold exactly (the nearest is {shown}); {cure}")
 
 

@@ -36,7 +36,7 @@ def as_numbers(given: Any, name: str, dimension: int) -> tuple[np.ndarray, str]:
         return as_numbers(_unmasked(given, name), name, dimension)
     if isinstance(given, np.ndarray):
         if given.dtype.names:
-            return _fields(given, name, dimension), name
+            return _fields(given, name, dimension)
         if given.dtype.kind == "O" and given.ndim == 1 and all(_is_row(row) for row in given):
             return as_numbers(list(given), f"np.stack({name})", dimension)
         return given, name
@@ -51,7 +51,7 @@ def as_numbers(given: Any, name: str, dimension: int) -> tuple[np.ndarray, str]:
         msg = f"{name} must be an array, got a {type(given).__name__}; pass np.column_stack([{columns}])"
         raise ValueError(msg)
     if hasattr(given, "to_numpy") and hasattr(given, "columns") and len(np.shape(given)) == 2:
-        return _table(given, name, dimension), f"{name}.to_numpy()"
+        return _table(given, name, dimension), f"{name}.to_numpy().astype(np.float64)"
     if np.ndim(getattr(given, "points", 0)) == 2:
         return as_numbers(given.points, f"{name}.points", dimension)
     return _made(given, name), f"np.asarray({name})"
@@ -110,25 +110,28 @@ def _unmasked(given: np.ma.MaskedArray, name: str) -> np.ndarray:
     return given.data
 
 
-def _fields(given: np.ndarray, name: str, dimension: int) -> np.ndarray:
+def _fields(given: np.ndarray, name: str, dimension: int) -> tuple[np.ndarray, str]:
     """The columns x, y (and z) of a structured array (n,)."""
-    names = {field.lower(): field for field in given.dtype.names or ()}
-    wanted = [names.get(axis) for axis in AXES[:dimension]]
-    if None in wanted or given.ndim != 1:
-        found = ", ".join(given.dtype.names or ())
-        columns = ", ".join(f"{name}[{field!r}]" for field in (given.dtype.names or ())[:dimension])
+    fields = given.dtype.names or ()
+    called = {field.lower(): field for field in fields}
+    wanted = [called[axis] for axis in AXES[:dimension] if axis in called]
+    if len(wanted) < dimension or given.ndim != 1:
+        found = ", ".join(fields)
+        columns = ", ".join(f"{name}[{field!r}]" for field in fields[:dimension])
         msg = (
             f"{name} are a structured array of shape {given.shape} with the fields {found}; what is read is "
             f"{', '.join(AXES[:dimension])} of shape (n,). For other fields pass np.column_stack([{columns}])"
         )
         raise ValueError(msg)
-    if dimension == 2 and "z" in names:
+    if dimension == 2 and "z" in called:
         msg = (
-            f"{name} have a field {names['z']}, and a triangulation in the plane needs x and y alone; pass "
-            f"{name}[{wanted!r}], or for points in space use dt3d.Delaunay"
+            f"{name} have a field {called['z']}, and a triangulation in the plane needs x and y alone; for "
+            f"points in space use dt3d.Delaunay, without {called['z']} pass {name}[{wanted!r}]"
         )
         raise ValueError(msg)
-    return np.column_stack([to_float64(given[field], f"{name}[{field!r}]") for field in wanted])
+    names = [f"{name}[{field!r}]" for field in wanted]
+    whole = f"np.column_stack([{', '.join(names)}])"
+    return np.column_stack([to_float64(given[f], f"{name}[{f!r}]", whole) for f in wanted]), whole
 
 
 def _table(given: Any, name: str, dimension: int) -> np.ndarray:
@@ -151,9 +154,11 @@ def _table(given: Any, name: str, dimension: int) -> np.ndarray:
 
 def _column(column: Any, name: str, table: str) -> np.ndarray:
     values = column.to_numpy()
-    if values.dtype.kind == "O":
-        missing = [i for i, value in enumerate(values) if value is None or type(value).__name__ == "NAType"]
-        if missing:
-            msg = f"row {missing[0]} of {name} has no value; drop such rows: pass {table}.dropna()"
-            raise ValueError(msg)
-    return to_float64(values, name)
+    if hasattr(column, "isna"):  # of pandas, whose missing values are of several kinds
+        missing = np.flatnonzero(np.asarray(column.isna(), bool)).tolist()
+    else:
+        missing = [i for i, x in enumerate(values) if x is None] if values.dtype.kind == "O" else []
+    if missing:
+        msg = f"row {missing[0]} of {name} has no value, NaN or NA; drop such rows: pass {table}.dropna()"
+        raise ValueError(msg)
+    return to_float64(values, name, table)

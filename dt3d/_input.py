@@ -35,7 +35,7 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
         raise ValueError(msg)
     # a copy, since what was given may change; in C order, since every other order is another type to numba
     array = np.array(to_float64(given, name), order="C")
-    _check_finite(array, "points")
+    _check_finite(array, "points", _of_numbers(given, name))
     return array
 
 
@@ -54,11 +54,15 @@ def check_queries(xi: Any, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]
             msg += f"; it looks transposed: pass {name}.T"
         raise ValueError(msg)
     array = to_float64(given, name)
-    _check_finite(array, "xi")
+    _check_finite(array, "xi", _of_numbers(given, name))
     return array.reshape(-1, dimension), given.shape[:-1]
 
 
-def _check_finite(array: np.ndarray, what: str) -> None:
+def _of_numbers(given: np.ndarray, name: str) -> str:
+    return f"{name}.astype(np.float64)" if given.dtype.kind == "O" else name
+
+
+def _check_finite(array: np.ndarray, what: str, whole: str) -> None:
     if np.isfinite(array).all():
         return
     rows = np.isfinite(array).all(axis=-1)
@@ -67,7 +71,7 @@ def _check_finite(array: np.ndarray, what: str) -> None:
     count = np.count_nonzero(~rows)
     msg = f"{what} must be finite: {count} rows have NaN or infinity, the first is {which}"
     if rows.ndim:
-        msg += f"; drop such rows: pass {what}[np.isfinite({what}).all(axis=-1)]"
+        msg += f"; drop such rows: pass {whole}[np.isfinite({whole}).all(axis=-1)]"
     raise ValueError(msg)
 
 

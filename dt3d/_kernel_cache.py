@@ -19,8 +19,6 @@ from collections.abc import Callable, Iterator
 from functools import cache, partial
 from typing import Any
 
-from ._sources import fingerprint
-
 CURE = "set the environment variable NUMBA_CACHE_DIR to a folder that can be written"
 PATIENCE = 2.0  # seconds for another process to save what it has compiled
 
@@ -79,85 +77,11 @@ def _forks_wait() -> None:
 
 @cache
 def source_cache() -> type | None:
-    """numba's cache of functions with records that are checked; None where this numba has another form.
-
-    Then functions are cached as numba does it.
-    """
-    import numba
-
+    """The cache that is made from numba's; None where this numba has another form, and caches in its way."""
     try:
-        from numba.core import caching
-
-        parts = (
-            caching.FunctionCache.load_overload,
-            caching.FunctionCache.save_overload,
-            caching.CompileResultCacheImpl._locator_classes,
-            caching.IndexDataCacheFile.load,
-            caching.IndexDataCacheFile.save,
-            caching.IndexDataCacheFile.flush,
-        )
-        folders = (
-            caching.UserProvidedCacheLocator,
-            caching.InTreeCacheLocator,
-            caching.UserWideCacheLocator,
-        )
-        parts += (caching.ZipCacheLocator.get_suitable_cache_subpath,)
+        from ._numba_cache import SourceCache
     except (ImportError, AttributeError):
         return None
-    assert parts
-
-    class Readable:
-        """A folder that was filled before and cannot be written now, as in the image of a container."""
-
-        def ensure_cache_path(self) -> None:
-            if not os.path.isdir(self.get_cache_path()):  # type: ignore[attr-defined]
-                msg = "no such folder"
-                raise OSError(msg)
-
-    class UserProvidedZip(caching.ZipCacheLocator):
-        """NUMBA_CACHE_DIR for packages in zip files, too, for which numba does not look at it."""
-
-        @classmethod
-        def from_function(cls, function: Callable, file: str) -> Any:
-            made = super().from_function(function, file) if numba.config.CACHE_DIR else None
-            if made is not None:
-                made._cache_path = os.path.join(numba.config.CACHE_DIR, cls.get_suitable_cache_subpath(file))
-            return made
-
-    class Implementation(caching.CompileResultCacheImpl):
-        _locator_classes = [
-            UserProvidedZip,
-            *caching.CompileResultCacheImpl._locator_classes,
-            *(type(f"Readable{folder.__name__}", (Readable, folder), {}) for folder in folders),
-        ]
-
-        def __init__(self, function: Callable) -> None:
-            super().__init__(function)
-            if isinstance(self.locator, Readable):
-                Kept.anywhere = False
-            stamp = fingerprint(function.__module__)
-            if stamp is not None:
-                self.locator.get_source_stamp = lambda: stamp
-
-    class SourceCache(caching.FunctionCache):
-        _impl_class = Implementation
-
-        def __init__(self, function: Callable) -> None:
-            super().__init__(function)
-            self._cache_file = Records(self._cache_file, self._impl.locator)
-
-        def load_overload(self, sig: Any, target_context: Any) -> Any:
-            try:
-                return super().load_overload(sig, target_context)
-            except Exception:  # whatever unpickling a garbled index can raise
-                return None
-
-        def save_overload(self, sig: Any, data: Any) -> None:
-            try:
-                super().save_overload(sig, data)
-            except OSError as error:
-                Kept.lost(self.cache_path, error)
-
     return SourceCache
 
 

@@ -10,6 +10,7 @@ import hashlib
 import re
 import sys
 from functools import cache
+from typing import Any
 
 # At the beginning of a line: `from .a import b, c`, also in parentheses, and `import package.a as b`. What is
 # imported later, inside a function or for type checkers, is not compiled in.
@@ -39,7 +40,7 @@ def fingerprint(module: str) -> str | None:
 @cache
 def _read(module: str) -> tuple[str | None, frozenset[str]]:
     """A hash over the source of a module, and what it imports from its own package."""
-    loader = getattr(sys.modules[module], "__loader__", None)
+    loader: Any = getattr(sys.modules[module], "__loader__", None)
     try:
         source = loader.get_source(module)  # from a zip file, too
     except (AttributeError, ImportError):

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._paths import import_for_format
+from ._text_cells import number
 from ._text_lines import read_text
+
+_UNCERTAINTY = re.compile(r"\([0-9]+\)$")
 
 
 def read_cif(path: Path) -> np.ndarray:
@@ -45,11 +49,14 @@ def read_cif(path: Path) -> np.ndarray:
     if not len(table):
         msg = f"{path}: the columns {', '.join(tags)} are not there as a whole"
         raise ValueError(msg)
-    points = np.array([[gemmi.cif.as_number(cell) for cell in row] for row in table])
-    if not np.isfinite(points).all():
-        row, column = np.argwhere(~np.isfinite(points))[0]
-        msg = f"{path}: {tags[column]} of atom {row + 1} is {table[int(row)][int(column)]!r}, not a number"
-        raise ValueError(msg)
+    points = np.empty((len(table), 3))
+    for k, row in enumerate(table):
+        for axis in range(3):
+            try:
+                points[k, axis] = number(_UNCERTAINTY.sub("", row[axis]))
+            except ValueError as error:
+                msg = f"{path}: {tags[axis]} of atom {k + 1}: {error}"
+                raise ValueError(msg) from None
     return _cartesian(path, gemmi, block, points) if fractions else points
 
 

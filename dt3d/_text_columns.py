@@ -58,7 +58,7 @@ def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
         what = "holds only comments" if any(map(str.strip, lines.text)) else "is empty"
         msg = f"{path} {what}; expected rows of x, y, z"
         raise ValueError(msg)
-    rows = _without_counts(rows)
+    rows = _without_counts(_without_hint(rows))
     delimiter = delimiter_of(rows.text[0])
     names = _cells(rows, 0, delimiter)
     if is_header(names):
@@ -84,7 +84,7 @@ def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
     else:
         _check_numbered_header(rows, first, delimiter)
     columns = _chosen_columns(rows, names, first[:used], delimiter, leading)
-    return numbers(rows, delimiter, columns, width, decimal_mark(rows, delimiter))
+    return numbers(rows, delimiter, columns, width, decimal_mark(rows, delimiter, columns))
 
 
 def delimiter_of(line: str) -> str | None:
@@ -125,6 +125,11 @@ def _is_never_used(rows: Lines, delimiter: str | None) -> bool:
         msg = f"a value behind the last column: {shown(rows.text[odd[0]])}"
         raise rows.error(odd[0], msg)
     return not odd
+
+
+def _without_hint(rows: Lines) -> Lines:
+    """The rows behind ``sep=;``, which tells Excel the delimiter; the rows tell it as well."""
+    return rows[1:] if len(rows) > 1 and re.fullmatch(r"\s*sep=.\s*", rows.text[0], re.IGNORECASE) else rows
 
 
 def _without_counts(rows: Lines) -> Lines:

@@ -17,7 +17,7 @@ FAMILIES = {
 }
 """The names of the three axes, in lower case, in each way of naming them."""
 
-HEIGHTS = {"z", "elevation", "elev", "height", "altitude", "alt"}
+HEIGHTS = {"z", "elevation", "elev", "height", "h", "altitude", "alt"}
 """What the third axis is called beside x and y, or easting and northing."""
 
 LONGEST_NAME = 100
@@ -68,7 +68,8 @@ def coordinate_columns(path: Path, names: list[str]) -> list[int] | None:
         if not places[0] or not places[1]:
             continue
         if not places[2] and axes[0] & {"x", "easting"}:
-            places[2] = [k for k, name in enumerate(plain) if name in HEIGHTS]
+            heights = HEIGHTS if "x" in axes[0] else HEIGHTS | {"u", "up"}
+            places[2] = [k for k, name in enumerate(plain) if name in heights]
         for axis, where in zip("xyz", places, strict=True):
             if len(where) > 1:
                 same = shown_names([f"{k + 1} ({names[k]})" for k in where])

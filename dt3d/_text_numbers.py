@@ -103,8 +103,8 @@ def _careful(rows: Lines, delimiter: str | None, columns: list[int], width: int,
     return found
 
 
-def decimal_mark(rows: Lines, delimiter: str | None) -> str:
-    """Whether numbers have decimal points or commas: "." or ",".
+def decimal_mark(rows: Lines, delimiter: str | None, columns: list[int]) -> str:
+    """Whether the numbers in some columns have decimal points or commas: "." or ",".
 
     Between semicolons a comma is a decimal comma, since that is why there are semicolons. Between tabs or
     blanks, ``6,251`` may be 6.251 or 6251, and some other cell must tell: ``0,251``, ``6,25`` or ``6251,1``.
@@ -120,8 +120,9 @@ def decimal_mark(rows: Lines, delimiter: str | None) -> str:
     for k, line in enumerate(rows.text):
         if "," not in line:
             continue
-        for j, cell in enumerate(line.split(delimiter)):
-            cell = cell.strip(' "')
+        cells = line.split(delimiter)
+        for j in columns:
+            cell = cells[j].strip(' "') if j < len(cells) else ""
             if not THOUSANDS.fullmatch(cell):
                 if DECIMAL_COMMA.fullmatch(cell):
                     return ","

@@ -21,7 +21,8 @@ KEYWORDS = set(_STATEMENTS.split())
 NUMERIC = {"v", "vt", "vn", "vp", "f", "fo", "l", "p"}
 """The statements that numbers alone follow."""
 
-_VERTEX_WITHIN = re.compile(r"v(?:\s+[-+]?[0-9.]+){3}")
+_VERTEX_WITHIN = re.compile(r"v(?:\s+[-+]?[0-9.]+){3}|(?:\s[-+]?[0-9]*\.[0-9]+){3}")
+"""What a line that is lost leaves in the name before it."""
 
 WIDTHS = {4, 5, 7, 8}
 """Cells of a vertex: v x y z, also with a weight, a colour, or both."""

@@ -99,7 +99,7 @@ def _check_other(lines: Lines, k: int, line: str, among_atoms: bool) -> None:
     """Raise a ValueError for a line that may be a damaged atom.
 
     That is one with an atom further right, and among the atoms each line that is no record. Before and behind
-    them, where programs write tables of their own, it is one with coordinates in the columns of an atom.
+    them, where programs write tables of their own, it is one with coordinates like those of an atom.
     """
     within = _ATOM.match(line.lstrip()) or _ATOM_WITHIN.search(line)
     # atoms that someone has turned into a remark fit on a line
@@ -111,6 +111,6 @@ def _check_other(lines: Lines, k: int, line: str, among_atoms: bool) -> None:
     if not name or name in RECORDS or name.split()[0] in RECORDS or line.startswith(("#", "!")):
         return
     points = (line[34:35], line[42:43], line[50:51])
-    if among_atoms or points.count(".") >= 2:
+    if among_atoms or points.count(".") >= 2 or _THREE.search(line):
         msg = f"{shown(line[:6].rstrip())} is not a record of a PDB file; it may be a damaged atom"
         raise lines.error(k, msg, 1)

@@ -97,7 +97,8 @@ def _atoms(rows: Lines, *, labelled: bool) -> np.ndarray:
     if width < skip + 3:
         msg = f"found {width - skip} coordinates on a line, expected x y z"
         raise rows.error(0, msg)
-    return numbers(rows, delimiter, [skip, skip + 1, skip + 2], width, decimal_mark(rows, delimiter))
+    columns = [skip, skip + 1, skip + 2]
+    return numbers(rows, delimiter, columns, width, decimal_mark(rows, delimiter, columns))
 
 
 def _extended(rows: Lines, properties: str) -> np.ndarray:

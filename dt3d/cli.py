@@ -23,7 +23,7 @@ import dt3d
 
 from ._paths import check_apart, check_writable
 from ._report import Growth, ledger_table, stats_table
-from ._status import BAD_INPUT, NOT_DELAUNAY, Printer, Verdict, one_line, run
+from ._status import NOT_DELAUNAY, Printer, Verdict, one_line, run
 
 app = cyclopts.App(
     name="dt3d",
@@ -54,12 +54,14 @@ def main(argv: Sequence[str] | None = None) -> int:
             app(
                 sys.argv[1:] if argv is None else list(argv),
                 exit_on_error=False,
+                print_error=False,
                 console=Printer(),
                 error_console=errors,
                 result_action="return_value",
             )
-        except cyclopts.CycloptsError:  # printed already
-            raise Verdict(BAD_INPUT) from None
+        except cyclopts.CycloptsError as error:
+            msg = f"{one_line(error)} (dt3d --help has the words)"
+            raise ValueError(msg) from None
 
     return run(command)
 
@@ -178,9 +180,9 @@ def triangulate(
 
 @app.command
 def verify(file: Path) -> None:
-    """Check with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
+    """Prove with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
 
-    Prints a sentence for each invariant; the exit status is 1 if one is broken.
+    Prints a sentence for each invariant; the exit status is 1 if one is broken. Orientation breaks none.
 
     Parameters
     ----------
@@ -358,4 +360,6 @@ def _machine(machine: str | None, processors: int | None) -> Any:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    import dt3d_command
+
+    sys.exit(dt3d_command.main())

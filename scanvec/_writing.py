@@ -28,7 +28,8 @@ def written_aside(path: str | Path) -> Iterator[Path]:
 
     The new file has the permissions of the old one, or those that the umask gives. Where ``path`` is a
     symbolic link the file it points to is replaced, and the link stays. What is no file (a pipe, a device)
-    has nothing to be kept, and a rename would put a file in its place: it is written to as it is.
+    has nothing to be kept, and a rename would put a file in its place: it is written to as it is. A hard link
+    to the old file, which is another name for it, keeps the old file.
 
     Raises
     ------

@@ -14,6 +14,7 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -91,6 +92,7 @@ def _without_interrupts() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    resource_tracker.ensure_running()  # or it starts now, and hears signals again when it has
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -154,10 +156,6 @@ class _Ready:
 
 def verified(points: np.ndarray, simplices: np.ndarray) -> bool:
     """Whether simplices, int (m, 4), of either orientation are the Delaunay triangulation; a proof."""
-    from ..predicates import orient3d
     from ..verification import verify
 
-    simplices = np.array(simplices, np.int64)
-    turned = orient3d(*(points[simplices[:, k]] for k in range(4))) < 0
-    simplices[turned] = simplices[turned][:, [1, 0, 2, 3]]
     return bool(verify(points, simplices))

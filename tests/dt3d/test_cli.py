@@ -164,11 +164,21 @@ def test_errors_are_one_line(points, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "words", [["triangulate"], ["triangulate", "a.npy", "-o", "b.npz", "--bogus"], ["what"]]
+    ("words", "text"),
+    [
+        (["triangulate"], '"triangulate" parameter --source requires an argument'),
+        (["triangulate", "a.npy", "-o", "b.npz", "--bogus"], "Unknown option: --bogus"),
+        (
+            ["triangulate", "a.npy", "-o", "b.npz", "--seed", "x"],
+            "Invalid value for --seed: unable to convert",
+        ),
+        (["what"], 'Unknown command "what". Available commands: demo, triangulate,'),
+    ],
 )
-def test_wrong_words_have_status_2(words, capsys):
-    assert cli.main(words) == 2
-    assert "Traceback" not in capsys.readouterr().err
+def test_wrong_words_have_status_2_and_one_line(words, text, capsys):
+    line = fails(capsys, *words)
+    assert text in line
+    assert line.endswith("(dt3d --help has the words)\n")
 
 
 def test_ctrl_c_has_status_130(points, tmp_path, monkeypatch, capsys):

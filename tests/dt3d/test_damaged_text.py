@@ -24,7 +24,7 @@ def rows(delimiter=" ", front="", back="", cells=CELLS):
 ATOMS = [f"ATOM  {k:5}  CA  ALA A   1    {x:>8}{y:>8}{z:>8}  1.00  0.00" for k, (x, y, z) in enumerate(CELLS)]
 LAMMPS = ["ITEM: TIMESTEP", "0", "ITEM: NUMBER OF ATOMS", str(N), "ITEM: BOX BOUNDS pp pp pp"]
 LAMMPS += ["0 9", "0 9", "0 9", "ITEM: ATOMS id x y z"]
-CIF = ["data_a", "loop_", "_atom_site.id", *(f"_atom_site.Cartn_{axis}" for axis in "xyz")]
+CIF = ["data_a", "loop_", "_atom_site.label", *(f"_atom_site.Cartn_{axis}" for axis in "xyz")]
 
 # the extension, and the lines before, with, and behind the points
 FORMATS = {
@@ -43,7 +43,7 @@ FORMATS = {
     "scan": (".pts", [str(N)], rows(back=" -1200 1 2 3"), []),
     "landmarks": (".pts", ["version: 1", f"n_points: {N}", "{"], rows(), ["}"]),
     "pdb": (".pdb", ["HEADER", "REMARK 1"], ATOMS, ["TER", "END"]),
-    "cif": (".cif", CIF, rows(front="{} "), []),
+    "cif": (".cif", CIF, rows(front="C{} "), []),
     "lammps": (".dump", LAMMPS, rows(front="{} "), []),
     "obj": (".obj", ["# a", "o thing"], rows(front="v "), ["vn 0 0 1", "f 1 2 3"]),
     "off": (".off", ["OFF", f"{N} 2 0"], rows(), ["3 0 1 2", "3 1 2 3"]),
@@ -131,7 +131,7 @@ def test_the_whole_files_are_read(tmp_path, kind):
     np.testing.assert_array_equal(read_points(path), POINTS)
 
 
-MANY = pytest.param(range(40, 2000), marks=pytest.mark.slow, id="many")
+MANY = pytest.param(range(40, 1000), marks=pytest.mark.slow, id="many")
 
 
 @pytest.mark.parametrize("kind", FORMATS)
@@ -158,12 +158,12 @@ GARBAGE = {
     "noise without NUL": np.random.default_rng(4).bytes(5000).replace(b"\0", b"1"),
     "letters": b"The quick brown fox\njumps over the lazy dog\n",
     "a picture": b"\x89PNG\r\n\x1a\n" + bytes(50),
-    "a long line of digits": b"1" * 300_000,
-    "a long line of blanks": b"1" + b" " * 300_000 + b"2",
-    "a long line of commas": b"," * 300_000,
-    "a long line of quotes": b'"' * 300_001,
+    "a long line of digits": b"1" * 100_000,
+    "a long line of blanks": b"1" + b" " * 100_000 + b"2",
+    "a long line of commas": b"," * 100_000,
+    "a long line of quotes": b'"' * 100_001,
     "a long line of brackets": b"x " + b"[" * 100_000 + b"\n1 2 3\n",
-    "a long line of atoms": b"ATOM " * 60_000,
+    "a long line of atoms": b"ATOM " * 20_000,
     "a promise": b"999999999999\n\n1 2 3\n",
     "a promise of OFF": b"OFF\n999999999 999999999 0\n1 2 3\n",
     "a promise of points": b"999999999 3 0 0\n1 2 3\n",

@@ -155,7 +155,7 @@ def test_nothing_depends_on_how_numpy_reports_floating_point_errors():
 def test_the_cures_of_inexact_numbers_work(given):
     with pytest.raises(ValueError, match="which float64 does not hold exactly") as caught:
         to_float64(given)
-    assert "pass np.asarray(points).astype(np.float64) to round" in str(caught.value)
+    assert "to round pass np.asarray(points).astype(np.float64)" in str(caught.value)
     assert to_float64(np.asarray(given).astype(np.float64)).shape == (1, 2)
     if "subtract an offset" in str(caught.value):
         assert to_float64(given - given.min()).tolist() == [[0, 2]]

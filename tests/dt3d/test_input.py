@@ -34,7 +34,7 @@ def with_value(value):
         (np.ma.masked_array(POINTS, POINTS > 0.9), "masked array"),
         (with_value(np.nan), "2 rows have NaN or infinity, the first is row 4"),
         (with_value(np.inf), "2 rows have NaN or infinity, the first is row 4"),
-        ((POINTS * 2**60).astype(np.int64) | 1, "row 0, column 0 of points is .*float64 does not hold"),
+        ((POINTS * 2**60).astype(np.int64) | 1, "row 0, column 0 of points is .*does not hold"),
     ],
 )
 def test_what_is_no_set_of_points(points, message):

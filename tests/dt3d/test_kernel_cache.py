@@ -51,8 +51,8 @@ class Package:
     def __init__(self, folder):
         self.folder = folder / "kernels_for_tests"
         self.folder.mkdir()
-        for module in (_kernel_cache, _sources):
-            shutil.copy(module.__file__, self.folder)
+        for module in ("_kernel_cache", "_numba_cache", "_sources"):
+            shutil.copy(Path(dt3d.__file__).with_name(f"{module}.py"), self.folder)
         self.write("__init__", "")
         self.write("kernel", KERNEL)
         self.write("inlined", INLINED)
@@ -273,7 +273,7 @@ def test_two_first_processes_at_once_and_a_third_that_compiles_nothing(package, 
 def test_this_numba_has_what_the_cache_is_made_from():
     assert _kernel_cache.source_cache() is not None, (
         f"numba {numba.__version__} caches in another form: compiled code can be stale after an update in "
-        f"place, and a damaged cache ends a call; adapt dt3d/_kernel_cache.py"
+        f"place, and a damaged cache ends a call; adapt dt3d/_numba_cache.py"
     )
 
 

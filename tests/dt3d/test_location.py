@@ -137,6 +137,28 @@ def test_in_the_plane():
         tri.find_simplex([1, 2, 3])
 
 
+@pytest.mark.parametrize("d", [2, 3])
+def test_any_number_of_points_is_taken_some_at_a_time(monkeypatch, d):
+    rng = np.random.default_rng(7)
+    sites, points = rng.random((300, d)), 1.2 * rng.random((1000, d)) - 0.1
+    tri = dt3d.Delaunay(sites) if d == 3 else threaded2d.Delaunay(sites)
+    together = tri.find_simplex(points)
+    monkeypatch.setattr(location, "AT_A_TIME", 64)
+    np.testing.assert_array_equal(tri.find_simplex(points), together)
+    monkeypatch.setattr("dt3d._input.MOST_SITES", 500)  # a limit of sites, not of what is located
+    np.testing.assert_array_equal(tri.find_simplex(points.reshape(10, 100, d)), together.reshape(10, 100))
+
+
+@pytest.mark.parametrize("kind", [np.asfortranarray, lambda p: p[::-1], lambda p: p.astype(np.float32), list])
+def test_points_to_be_located_in_any_layout(kind):
+    rng = np.random.default_rng(8)
+    tri, points = dt3d.Delaunay(rng.random((100, 3))), kind(rng.random((200, 3)))
+    if isinstance(points, np.ndarray):
+        points.flags.writeable = False
+    wanted = [int(tri.find_simplex(np.array(point, float))) for point in points]
+    np.testing.assert_array_equal(tri.find_simplex(points), wanted)
+
+
 def test_callers_in_several_threads():
     rng = np.random.default_rng(6)
     tri, points = dt3d.Delaunay(rng.random((1000, 3))), rng.random((2000, 3))

@@ -20,7 +20,7 @@ def same(points):
 
 
 def single(points):
-    """What the file holds is float32."""
+    """What the file holds is float32 in bytes; numbers that are written out are read as they are written."""
     return points.astype(np.float32).astype(np.float64)
 
 

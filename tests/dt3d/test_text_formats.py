@@ -151,6 +151,7 @@ def test_pdb(tmp_path, rows):
         (lambda row: " " + row, "an atom that does not start where the line starts"),
         (lambda row: "REMARK 1 " + row, "an atom that does not start where the line starts"),
         (lambda row: row + " " + row, "a second atom on the line"),
+        (lambda row: "REMA" + row[24:], "'REMA 1' is not a record"),
         (lambda row: row + 2000 * " ", "characters, while a record has 80"),
     ],
 )
@@ -188,8 +189,9 @@ def test_cif(tmp_path):
     for text in (CELL + fractions, (CELL + fractions).replace("_cell.", "_cell_").replace("site.", "site_")):
         np.testing.assert_allclose(read(tmp_path, "data_a\n" + text, ".cif"), right, rtol=1e-14)
     text = "data_a\n" + SITES + atoms
-    refused(tmp_path, "data_a\n" + fractions, ".cif", "fractions of the unit cell, but its _cell_length_a is")
-    refused(tmp_path, text.replace("4.0", "?"), ".cif", r"Cartn_x of atom 4 is '\?', not a number")
+    refused(tmp_path, "data_a\n" + fractions, ".cif", "fractions of the unit cell, but its _cell_len")
+    refused(tmp_path, text.replace("4.0", "?"), ".cif", r"_x of atom 4: a value is missing \('\?'\)")
+    refused(tmp_path, text.replace("4.0", "9007199254740993"), ".cif", "_x of atom 4: .*not hold exactly")
     refused(tmp_path, text + "C 1 2\n", ".cif", "is not a CIF file")
     refused(tmp_path, text + text.replace("data_a", "data_b"), ".cif", "holds 2 structures")
     refused(tmp_path, "data_a\n_x 1\n", ".cif", "holds no structures with atoms")
@@ -242,6 +244,7 @@ def test_obj(tmp_path):
         (3, "v 1 2 3 v 4 5 6", "line 4: a second statement on the line"),
         (3, "f 1 2 3 v 4 5 6", "line 4: a second statement on the line"),
         (3, "o thing v 1 2 3", "line 4: a vertex within a name"),
+        (3, "o thing -1.5 2.5 3.5", "line 4: a vertex within a name"),
         (3, "v 1 2 -", "line 4, column 4: a value is missing"),
     ]:
         refused(tmp_path, lines([*vertices[:k], damaged, *vertices[k + 1 :]]), ".obj", complaint)

@@ -101,6 +101,9 @@ def test_lines_are_counted_in_the_file(tmp_path):
         "length,width,height\n",
         "easting,northing,elevation\n",
         "E,N,Z\n",
+        "east,north,up\n",
+        "x,y,h\n",
+        "sep=,\nx,y,z\n",
         "lon,lat,depth\n",
         "Points:0,Points:1,Points:2\n",
         '"Points_0","Points_1","Points_2"\n',
@@ -130,6 +133,7 @@ def test_headers(tmp_path, header):
         ("id,easting,northing,elevation,code", ["7"], ["TREE"]),
         ("nx,ny,nz,x,y,z", ["0", "0", "1"], []),
         ("x,y,z,remark", [], [""]),
+        ("x,y,h,temperature", [], ["300"]),
     ],
 )
 def test_named_columns_are_found_among_others(tmp_path, header, front, back):
@@ -256,6 +260,9 @@ def test_decimal_commas(tmp_path, delimiter):
     text = table(delimiter=delimiter).replace(".", ",")
     for header in ("", delimiter.join("xyz") + "\n"):
         np.testing.assert_array_equal(read(tmp_path, header + text, ".txt"), POINTS)
+    # commas elsewhere do not matter
+    named = "time;x;y;z\n" + table([["12,5", *cells] for cells in CELLS], ";")
+    np.testing.assert_array_equal(read(tmp_path, named, ".txt"), POINTS)
     mixed = text.replace("5,5", "5.5")
     refused(tmp_path, mixed, "line 4, column 2: '5.5' has a decimal point, while other numbers", ".txt")
 

@@ -17,7 +17,7 @@ GOOD = np.random.default_rng(0).random((20, 2))
         (np.zeros((0, 2)), "empty; a triangulation needs at least three"),
         ([["a", "b"]] * 3, "real numbers"),
         (GOOD * 1j, "real numbers"),
-        (np.ma.masked_array(GOOD, GOOD > 2), "masked"),
+        (np.ma.masked_array(GOOD, GOOD > 0.9), "masked"),
         (
             np.where(np.arange(40).reshape(20, 2) == 7, np.nan, GOOD),
             "1 rows have NaN or infinity, the first is row 3",
