@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ._cursor import numbers
 from ._memory import available_memory, gigabytes
 from ._paths import import_for_format
 
@@ -95,13 +96,7 @@ class Arrays:
         if len(words) != count:
             msg = f"{len(words)} numbers instead of {count}"
             raise ValueError(msg)
-        if kind[0] == "f":
-            return np.array([float(word) for word in words], np.float64)
-        try:
-            return np.array([int(word) for word in words], np.int64)
-        except OverflowError as error:
-            msg = "a whole number of more than 64 bits"
-            raise ValueError(msg) from error
+        return numbers([word.encode() for word in words], kind[0] != "f", "its values")
 
     def _inline(self, array: ET.Element) -> _Bytes:
         return _Bytes("".join((array.text or "").split()).encode(), letters=True, whole=True)

@@ -287,3 +287,37 @@ def test_a_process_of_its_own_ends_likewise(tmp_path, command, name, content):
     assert done.stdout == ""
     assert done.stderr.count("\n") == 1
     assert name in done.stderr
+
+
+@pytest.mark.parametrize("number", ["1_0", "1O", "0x10", "--1", "\u0663"])
+def test_words_that_are_no_numbers(tmp_path, number):
+    rows = f"0 0 0\n1 {number} 0\n"
+    head = "".join(f"property float {axis}\n" for axis in "xyz")
+    files = {
+        "a.vtk": f"# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n{rows}",
+        "a.ply": f"ply\nformat ascii 1.0\nelement vertex 2\n{head}end_header\n{rows}",
+        "a.vtp": '<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="2"><Points><DataArray '
+        f'type="Float64" NumberOfComponents="3">{rows}</DataArray></Points></Piece></PolyData></VTKFile>',
+        "a.mesh": f"MeshVersionFormatted 2\nDimension 3\nVertices 2\n0 0 0 0\n1 {number} 0 0\nEnd\n",
+        "a.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n"
+        f"2 1 {number} 0\n$EndNodes\n",
+        "a.stl": "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 1\n"
+        f"vertex 1 {number} 0\nendloop\nendfacet\nendsolid\n",
+        "a.pcd": "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n"
+        f"DATA ascii\n{rows}",
+    }
+    for name, text in files.items():
+        (tmp_path / name).write_text(text.replace(number, "1"), encoding="utf-8")
+        assert read_points(tmp_path / name).shape == (3 if name == "a.stl" else 2, 3)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        refused(tmp_path / name, "which is no number|expected 'vertex x y z'")
+
+
+def test_negative_counts(tmp_path):
+    (tmp_path / "a.pcd").write_text(
+        "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH -1\nHEIGHT -1\nPOINTS 1\nDATA ascii\n1 2 3\n"
+    )
+    refused(tmp_path / "a.pcd", "WIDTH -1 times HEIGHT -1 is not POINTS 1")
+    start = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"
+    (tmp_path / "a.msh").write_text(f"{start}1 -5 1 1\n3 1 0 -5\n$EndNodes\n")
+    refused(tmp_path / "a.msh", r"numbers of nodes are \[1, -5\]")
