@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -23,8 +25,9 @@ class Cursor:
         "<" or ">" if arrays are binary, of this byte order. Arrays are text if left out.
     """
 
-    def __init__(self, path: Path, data: bytes, order: str | None = None) -> None:
-        self.path, self.data, self.order = path, data, order
+    def __init__(self, path: Path, data: bytes, order: Literal["<", ">"] | None = None) -> None:
+        self.path, self.data = path, data
+        self.order: Literal["<", ">"] | None = order
         self.at = 0
 
     def word(self, what: str) -> str:
@@ -90,13 +93,21 @@ class Cursor:
         if len(words) < count:
             msg = f"{self.path} is cut off: {what} should be {count} numbers, and {len(words)} are there"
             raise ValueError(msg)
-        kind = int if whole else float
-        try:
+        return numbers(words, whole, f"{self.path}: {what}")
+
+
+def numbers(words: Sequence[bytes], whole: bool, what: str) -> np.ndarray:
+    """Words as int64 or float64, which ``what`` describes in the message if one is no number."""
+    kind = int if whole else float
+    try:
+        # Python takes 1_000 for a number, and no format does
+        if not any(b"_" in word for word in words):
             return np.array([kind(word) for word in words], np.int64 if whole else np.float64)
-        except (ValueError, OverflowError):
-            wrong = next(word for word in words if not _is_number(word, kind))
-            msg = f"{self.path}: {what} have {wrong[:40].decode('utf-8', 'replace')!r}, which is no number"
-            raise ValueError(msg) from None
+    except (ValueError, OverflowError):
+        pass
+    wrong = next(word for word in words if not _is_number(word, kind))
+    msg = f"{what} have {wrong[:40].decode('utf-8', 'replace')!r}, which is no {'whole ' * whole}number"
+    raise ValueError(msg)
 
 
 def _is_number(word: bytes, kind: type) -> bool:
@@ -104,4 +115,4 @@ def _is_number(word: bytes, kind: type) -> bool:
         np.int64(kind(word)) if kind is int else kind(word)
     except (ValueError, OverflowError):
         return False
-    return True
+    return b"_" not in word

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,6 +30,7 @@ def read_las(path: Path) -> np.ndarray:
         If laspy, or for .laz its part lazrs, is not installed.
     """
     laspy = import_for_format("laspy")
+    _check_records(path)
     with _silent("laspy"), laspy.open(path) as file:
         header = file.header
         promised, size = header.point_count, path.stat().st_size
@@ -50,6 +52,25 @@ def read_las(path: Path) -> np.ndarray:
         msg = f"{path} holds {len(points)} points; its header promises {promised}"
         raise ValueError(msg)
     return points
+
+
+def _check_records(path: Path) -> None:
+    """Raise a ValueError unless the records of variable length can lie where the header has them.
+
+    laspy reads as many as are promised, billions at the end of the file, too. Source: "LAS Specification
+    1.4", table "Public Header Block".
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(247)
+    if head[:4] != b"LASF" or len(head) < 227:
+        msg = f"{path} is no LAS file: it should start with LASF and a header of 227 bytes"
+        raise ValueError(msg)
+    length, first, before = struct.unpack_from("<HII", head, 94)
+    later = struct.unpack_from("<I", head, 243)[0] if head[25] >= 4 and len(head) == 247 else 0
+    if not (length <= first <= size and 54 * before <= first and 60 * later <= size):
+        msg = f"{path} is damaged: {before} records before its points and {later} after them do not fit"
+        raise ValueError(msg)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
@@ -96,7 +97,7 @@ def _member(path: Path, archive: zipfile.ZipFile, name: str) -> np.ndarray:
         with archive.open(entry) as file:
             array = _array(what, file, entry.file_size)
             file.read(1)  # only the end of the data shows whether the checksum is right
-    except (zipfile.BadZipFile, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, EOFError) as error:
         msg = f"{what} is damaged: {error}"
         raise ValueError(msg) from error
     return array
@@ -110,6 +111,8 @@ def _array(what: Path | str, file: IO[bytes], size: int) -> np.ndarray:
         # version 3 differs from 2 in the encoding of names only
         read_header = form.read_array_header_1_0 if version == (1, 0) else form.read_array_header_2_0
         shape, fortran, dtype = read_header(file)
+    except (zipfile.BadZipFile, zlib.error):
+        raise
     except Exception as error:  # ValueError, but also SyntaxError and tokenize.TokenError
         msg = f"{what} is not a NumPy array file: its header cannot be read ({error})"
         raise ValueError(msg) from error

@@ -86,7 +86,7 @@ def _layout(
         parts = "; ".join(f"{key} {' '.join(header.get(key, []))}" for key in keys)
         msg = f"{path}: the header is not understood: {len(names)} FIELDS; {parts[:200]}"
         raise ValueError(msg)
-    if n != width * height or n < 0:
+    if n != width * height or min(n, width, height) < 0:
         msg = f"{path} is damaged: WIDTH {width} times HEIGHT {height} is not POINTS {n}"
         raise ValueError(msg)
     most = len(cursor.data) * (MOST_LZF if form == "binary_compressed" else 1)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ._columns import stack_columns
+from ._cursor import numbers
 
 SCALARS = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -142,7 +143,8 @@ class _Text:
             if is_list and any(_length(self.path, element, [word]) != length for word in block[at::width]):
                 return None
             if not is_list and element.name == "vertex":
-                columns[name] = self._numbers(name, kind, block[at::width])
+                what = f"{self.path}: values {name!r} of vertices"
+                columns[name] = numbers(block[at::width], kind[0] != "f", what)
             at += 1 + length
         self.at += width * count
         return columns
@@ -154,15 +156,6 @@ class _Text:
             self.at += 1 + length
         if self.at > len(self.words):
             raise _cut_off(self.path, element)
-
-    def _numbers(self, name: str, kind: str, words: list[bytes]) -> np.ndarray:
-        try:
-            if kind[0] == "f":
-                return np.array([float(word) for word in words], np.float64)
-            return np.array([int(word) for word in words], np.int64)
-        except (ValueError, OverflowError) as error:
-            msg = f"{self.path}: property {name!r} of a vertex is no number: {error}"
-            raise ValueError(msg) from None
 
     def check_end(self) -> None:
         if left := len(self.words) - self.at:
@@ -261,9 +254,11 @@ def _length(path: Path, element: Element, found: list) -> int:
         raise _cut_off(path, element) from None
     except (ValueError, OverflowError):
         pass
-    msg = f"{path} is damaged: {str(found[0])[:40]!r} is no length of a list of {element.name[:40]!r}"
+    word = found[0].decode("utf-8", "replace") if isinstance(found[0], bytes) else str(found[0])
+    msg = f"{path} is damaged: {word[:40]!r} is no length of a list of {element.name[:40]!r}"
     raise ValueError(msg)
 
 
 def _cut_off(path: Path, element: Element) -> ValueError:
-    return ValueError(f"{path} is cut off: there are less than {element.count} rows of {element.name[:40]!r}")
+    rows = f"{element.count} rows of {element.name[:40]!r}"
+    return ValueError(f"{path} is cut off: there are fewer than {rows}")

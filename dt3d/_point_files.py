@@ -20,18 +20,30 @@ READERS = {**TEXT_READERS, **BINARY_READERS}
 def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.ndarray:
     """The points of a file.
 
-    ===================== ====================================================================================
-    .npy                  an array (n, 3)
-    .npz                  the array ``points``, or the only array
-    .csv .tsv .txt        three columns, or those that a header calls x, y and z; between commas, semicolons
-                          or white space
-    .xyz                  lines ``x y z ...``, or chemistry's XYZ with count, comment and element symbols
-    .pdb                  the atoms of a Protein Data Bank file
-    .obj                  the vertices, in double precision
-    .ply .off             the vertices, in the file's precision (needs meshio)
-    .vtk .vtu .vtp .stl   the points (needs PyVista)
-    .gz after any         the same, packed by gzip
-    ===================== ====================================================================================
+    ========================== =============================================================================
+    .npy                       an array (n, 3), or a structured one with fields x, y and z
+    .npz                       the array ``points``, or the only array, or x, y and z, or the one that has a
+                               usual name, such as ``pos`` or ``xyz``
+    .csv .tsv .txt .dat        three columns, or those that a header calls x, y and z; between commas,
+                               semicolons or white space
+    .asc .pts                  the first three columns of a scanner's text
+    .xyz                       lines ``x y z ...``, or chemistry's XYZ with count, comment and element symbols
+    .pdb .cif .mmcif           the atoms of a structure (.cif needs gemmi)
+    .dump .lammpstrj           the atoms of a LAMMPS dump
+    .obj .off .node            the vertices or nodes, in double precision
+    .ply                       the vertices, whatever other elements and lists there are
+    .pcd                       the points of PCL, in text, binary or compressed
+    .las .laz                  the points of a laser scan, scaled and offset (needs laspy)
+    .stl                       the corners of the triangles, each once
+    .vtk                       the points of VTK's legacy format, in text or binary
+    .vtu .vtp .vti .vts .vtr   the points of VTK's XML formats; of pieces one after the other
+    .vtm                       the points of all files that it names, one after the other
+    .msh .mesh                 the nodes of Gmsh (2.2 and 4.1) and the vertices of Medit
+    .gz after any              the same, packed by gzip
+    ========================== =============================================================================
+
+    Binary numbers have the precision of the file; text is read as double, whatever type is declared. Each
+    reader checks what the file promises: a damaged one is an error, and not points that nobody wrote.
 
     The order of the file is kept, and so are duplicates and values that are not finite; the triangulation
     deals with both.

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ._cursor import numbers
+
 HEADER, TRIANGLE = 80, 50
 
 SHAPE = ("facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet")
@@ -76,8 +78,8 @@ def _text(path: Path, data: bytes) -> np.ndarray:
 
 def _vertex(path: Path, number: int, words: list[str]) -> list[float]:
     try:
-        _, x, y, z = words
-        return [float(x), float(y), float(z)]
+        _, x, y, z = (word.encode() for word in words)
+        return numbers([x, y, z], False, "corners").tolist()
     except ValueError:
         msg = f"{path}, line {number}: expected 'vertex x y z', found {' '.join(words)[:60]!r}"
         raise ValueError(msg) from None

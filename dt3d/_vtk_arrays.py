@@ -9,10 +9,11 @@ import xml.etree.ElementTree as ET
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
+from ._cursor import numbers
 from ._memory import available_memory, gigabytes
 from ._paths import import_for_format
 
@@ -46,7 +47,7 @@ class Arrays:
 
     def __init__(self, path: Path, root: ET.Element, appended: bytes, appended_base64: bool) -> None:
         self.path, self.appended, self.appended_base64 = path, appended, appended_base64
-        self.order = ">" if root.get("byte_order") == "BigEndian" else "<"
+        self.order: Literal["<", ">"] = ">" if root.get("byte_order") == "BigEndian" else "<"
         self.size = np.dtype("u8" if root.get("header_type") == "UInt64" else "u4").newbyteorder(self.order)
         self.compressor = root.get("compressor")
 
@@ -95,13 +96,7 @@ class Arrays:
         if len(words) != count:
             msg = f"{len(words)} numbers instead of {count}"
             raise ValueError(msg)
-        if kind[0] == "f":
-            return np.array([float(word) for word in words], np.float64)
-        try:
-            return np.array([int(word) for word in words], np.int64)
-        except OverflowError as error:
-            msg = "a whole number of more than 64 bits"
-            raise ValueError(msg) from error
+        return numbers([word.encode() for word in words], kind[0] != "f", "its values")
 
     def _inline(self, array: ET.Element) -> _Bytes:
         return _Bytes("".join((array.text or "").split()).encode(), letters=True, whole=True)

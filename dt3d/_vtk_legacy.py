@@ -68,6 +68,9 @@ def read_legacy(path: Path) -> dict[str, np.ndarray]:
                 break  # a kind of attribute that is not known; points and cells come before all of them
         else:
             _structure(cursor, word, found)
+    if ("offsets" in found) != ("types" in found):
+        msg = f"{path} is cut off: CELLS and CELL_TYPES go together"
+        raise ValueError(msg)
     points = _points(path, kind, found)
     if not len(points):
         msg = f"{path} holds no points (data set {kind.upper()[:40] or 'missing'})"
@@ -208,8 +211,8 @@ def _points(path: Path, kind: str, found: dict[str, np.ndarray]) -> np.ndarray:
         extent = [0, int(last[0]), 0, int(last[1]), 0, int(last[2])]
         origin, spacing = found.get("origin", np.zeros(3)), found.get("spacing", np.ones(3))
         return image(path, extent, origin.tolist(), spacing.tolist(), np.eye(3))
-    axes = [found.get(f"{axis}_coordinates") for axis in "xyz"]
-    if kind == "rectilinear_grid" and all(axis is not None for axis in axes):
+    axes = [found[f"{axis}_coordinates"] for axis in "xyz" if f"{axis}_coordinates" in found]
+    if kind == "rectilinear_grid" and len(axes) == 3:
         if [len(axis) for axis in axes] != found.get("dimensions", np.zeros(3)).tolist():
             msg = f"{path}: the coordinates of the rectilinear grid are not as many as its dimensions say"
             raise ValueError(msg)

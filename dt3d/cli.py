@@ -117,7 +117,8 @@ def triangulate(
     Parameters
     ----------
     source
-        Points: .npy .npz .csv .tsv .txt .xyz .pdb .obj .ply .off .vtk .vtu .vtp .stl
+        Points: .npy .npz .csv .tsv .txt .dat .asc .pts .xyz .pdb .cif .mmcif .dump .lammpstrj .obj .off .node
+        .ply .pcd .las .laz .stl .vtk .vtu .vtp .vti .vts .vtr .vtm .msh .mesh, and each of them with .gz
     output
         The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull.
     method
