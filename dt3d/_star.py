@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from ._kernel_cache import cached_njit
 from ._topology import OUTSIDE
 from .predicates.filtered import orient3d
 from .predicates.filtered2d import orient2d
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _on_facet(rows, simplices, t, k, q, w):
     """Whether q, a row in simplex t, lies on the facet opposite the k-th vertex."""
     a = q if k == 0 else simplices[t, 0]
@@ -22,7 +22,7 @@ def _on_facet(rows, simplices, t, k, q, w):
     return orient3d(rows, a, b, c, d, w) == 0
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def find_beside(rows, simplices, neighbors, kept, q, points, found, out, w):
     """For each point, copied to row q and in simplex found, write a kept simplex that contains it, if any.
 

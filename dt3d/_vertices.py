@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from ._kernel_cache import cached_njit
 from ._memory import require
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _around(simplices, n):
     """The tetrahedra around each vertex: where those of vertex v begin, and all of them."""
     begin = np.zeros(n + 1, np.int64)
@@ -40,7 +40,7 @@ def neighbors_of_vertices(simplices: np.ndarray, n: int) -> tuple[np.ndarray, np
     return _neighbors(simplices, n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _neighbors(simplices, n):
     begin, around = _around(simplices, n)
     indptr = np.zeros(n + 1, np.int32)

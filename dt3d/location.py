@@ -12,12 +12,12 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-import numba
 import numpy as np
 
 from ._compiling import announce_compilation
 from ._errors import InternalError
 from ._input import check_queries
+from ._kernel_cache import cached_njit
 from ._memory import room_for_threads
 from ._results import check_complex, check_range, frozen
 from ._star import find_beside
@@ -32,7 +32,7 @@ AT_A_TIME = 2**22  # points that are put in order together
 LOST = -2  # a walk of more steps than there are simplices, which no Delaunay triangulation has
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _beyond(rows, simplices, t, k, q, w):
     """Whether q lies strictly beyond the facet of t opposite its k-th vertex."""
     a = q if k == 0 else simplices[t, 0]
@@ -44,7 +44,7 @@ def _beyond(rows, simplices, t, k, q, w):
     return orient3d(rows, a, b, c, d, w) < 0
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _walk(rows, simplices, neighbors, t, q, w):
     """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended.
 
@@ -67,7 +67,7 @@ def _walk(rows, simplices, neighbors, t, q, w):
     return LOST, t
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _search(rows, simplices, q, w):
     """The first simplex that contains row q, or `OUTSIDE`."""
     for t in range(len(simplices)):
@@ -79,7 +79,7 @@ def _search(rows, simplices, q, w):
     return OUTSIDE
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
     """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended, or
     `LOST` where the first one was."""

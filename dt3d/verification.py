@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from . import _topology
+from ._kernel_cache import cached_njit
 from ._proof import Space, Verification, prove
 from .predicates.filtered import in_sphere, orient3d
 from .predicates.perturbed import inside, orientation_with
@@ -71,7 +71,7 @@ def verify(
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _orientations(sites, simplices, w):
     signs = np.empty(len(simplices), np.int8)
     for i in range(len(simplices)):
@@ -80,7 +80,7 @@ def _orientations(sites, simplices, w):
     return signs
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_inside(sites, simplices, apex, perturbed, w):
     count = 0
     for i in range(len(apex)):
@@ -92,7 +92,7 @@ def _count_inside(sites, simplices, apex, perturbed, w):
     return count
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_containing(sites, simplices, w):
     """Tetrahedra but the first that contain x: with x in place of any vertex they stay positive."""
     count = 0
@@ -112,7 +112,7 @@ def _count_containing(sites, simplices, w):
     return count
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_facing(sites, simplex, hull, w):
     count = 0
     for i in range(len(hull)):
@@ -137,7 +137,7 @@ def _dents(sites: np.ndarray, hull: np.ndarray, w: np.ndarray) -> int:
     return _count_bent(sites, np.column_stack([edges[left], opposite[left], opposite[right]]), w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_bent(sites, rows, w):
     count = 0
     for i in range(len(rows)):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .layout import DEAD
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def count_finite(mesh, begin, end):
     """How many of the slots begin .. end-1 hold tetrahedra that are not ghosts."""
     m = 0
@@ -17,7 +17,7 @@ def count_finite(mesh, begin, end):
     return m
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def number_finite(mesh, begin, end, first, number):
     """Number them from ``first`` on; -1 for the others."""
     for t in range(begin, end):
@@ -28,7 +28,7 @@ def number_finite(mesh, begin, end, first, number):
             number[t] = -1
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def write_finite(mesh, begin, end, number, original, simplices, neighbors):
     """Rows of the result: vertices by their indices in the input, neighbours by number, -1 beyond the
     hull."""

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numba
 
+from .._kernel_cache import cached_njit
 from ..predicates.perturbed import inside, orientation_with
 from .layout import INFINITE
 
 
-@numba.njit(cache=True)
+@cached_njit
 def corners(mesh, t):
     """The vertices of tetrahedron t, as signed integers; -1 for the infinite one."""
     return (
@@ -19,12 +20,12 @@ def corners(mesh, t):
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _signed(v):
     return -1 if v == INFINITE else numba.int64(v)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def conflicts(points, mesh, t, site, w):
     """Whether a site destroys tetrahedron t."""
     v = corners(mesh, t)

@@ -8,10 +8,10 @@ pieces becomes the inside of one.
 
 from __future__ import annotations
 
-import numba
+from .._kernel_cache import cached_njit
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy")
+@cached_njit(nogil=True, error_model="numpy")
 def hilbert_keys(sites, low, part, first, scale, bits, index_bits, begin, end, keys):
     """``keys[i] = position << index_bits | i`` of sites[i], int64, for i from begin to end - 1.
 
@@ -57,7 +57,7 @@ def hilbert_keys(sites, low, part, first, scale, bits, index_bits, begin, end, k
         keys[i] = (_spread(x ^ turn) << 2 | _spread(y ^ turn) << 1 | _spread(z ^ turn)) << index_bits | i
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def _spread(x):
     """The 21 low bits of x, two zero bits between neighbours."""
     x = (x | x << 32) & 0x1F00000000FFFF

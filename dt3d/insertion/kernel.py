@@ -15,6 +15,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .conflict import conflicts
 from .layout import DEAD, INFINITE
 from .ownership import owns, owns_all
@@ -43,7 +44,7 @@ STATE = 14
 BESIDE = 16  # sites on either side on the curve, from one of which a walk that stopped is begun again
 
 
-@numba.njit(inline="always", cache=True, error_model="numpy")
+@cached_njit(inline="always", error_model="numpy")
 def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavity, rim, outer, w):
     """The tetrahedra in conflict with a site, from t on, and the facets around them; the numbers of both.
 
@@ -92,7 +93,7 @@ def _search(points, mesh, spheres, radii, t, site, x, y, z, low, length, n, cavi
     return size, facets, tested
 
 
-@numba.njit(inline="always", cache=True, error_model="numpy")
+@cached_njit(inline="always", error_model="numpy")
 def _occupied(rows, mesh, t, x, y, z):
     """Whether a place in tetrahedron t is that of a vertex; which would be one of the four of t."""
     occupied = False
@@ -103,7 +104,7 @@ def _occupied(rows, mesh, t, x, y, z):
     return occupied
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy")
+@cached_njit(nogil=True, error_model="numpy")
 def insert(points, rows, labels, mesh, spheres, radii, todo, state, scratch, slack, reach, w):
     """Insert the sites todo[state[NEXT]], ... before state[STOP] that the thread can; see `ownership`.
 

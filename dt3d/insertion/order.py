@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numba
 import numpy as np
 
 from .._errors import InternalError
+from .._kernel_cache import cached_njit
 from .curve import hilbert_keys
 
 ROUND_BITS = 2  # a site is in the last round unless as many bits of its hash are zero, and so on
@@ -82,7 +82,7 @@ def _along_one_curve(
     return keys, long_runs[:count]
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def bounds(sites):
     """The least and the greatest corner of the box of sites float64 (n, 3), float64 (2, 3)."""
     box = np.empty((2, 3))
@@ -95,7 +95,7 @@ def bounds(sites):
     return box
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _sort_short_runs(sites, keys, index_bits, long_runs):
     """Replace keys by indices, sorted by coordinates within short runs of one position; returns the long
     ones."""
@@ -122,7 +122,7 @@ def _sort_short_runs(sites, keys, index_bits, long_runs):
     return count
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _before(sites, a, b):
     for k in range(3):
         if sites[a, k] != sites[b, k]:
@@ -130,7 +130,7 @@ def _before(sites, a, b):
     return False
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def gather(sites, order, rows, begin, end):
     """Put sites float64 (n, 3) in order, into rows of four (see `layout`), from place begin to end - 1."""
     for i in range(begin, end):
@@ -139,7 +139,7 @@ def gather(sites, order, rows, begin, end):
         rows[4 * i + 3] = 0.0
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def copied(rows, begin, end):
     """Whether a row from begin to end - 1 equals the one before it."""
     for i in range(max(begin, 1), end):
@@ -149,7 +149,7 @@ def copied(rows, begin, end):
     return False
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def separate_copies(sites, order):
     """Move the first of equal sites to the front of ``order``, as `along_curve` gave it; returns their
     number.
@@ -177,12 +177,12 @@ def separate_copies(sites, order):
     return distinct, pairs[np.argsort(pairs[:, 0])]
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _equal(sites, a, b):
     return sites[a, 0] == sites[b, 0] and sites[a, 1] == sites[b, 1] and sites[a, 2] == sites[b, 2]
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def insertion_rounds(n, seed, left_out):
     """Sites 0 .. n-1 without four in rounds, ascending within each: uint32 (n - 4,), and where each round
     ends.
@@ -217,7 +217,7 @@ def insertion_rounds(n, seed, left_out):
     return order, ends[1:]
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def _mixed(x):
     """A number whose bits all depend on all bits of x (the finaliser of S. Vigna's splitmix64)."""
     x = (x + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)

@@ -18,10 +18,11 @@ from __future__ import annotations
 
 import numba
 
+from .._kernel_cache import cached_njit
 from .layout import INFINITE
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def owns(v, low, length, n):
     """Whether site v is among the ``length`` sites from ``low`` on, in the cyclic order of n sites."""
     place = numba.int64(v) - low
@@ -30,7 +31,7 @@ def owns(v, low, length, n):
     return place < length
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def owns_all(mesh, t, low, length, n):
     """Whether all finite vertices of tetrahedron t are among those sites."""
     all_owned = True
@@ -41,7 +42,7 @@ def owns_all(mesh, t, low, length, n):
     return all_owned
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def owns_one(mesh, t, low, length, n):
     """Whether some finite vertex of tetrahedron t is among those sites."""
     one_owned = False

@@ -37,6 +37,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from ..predicates.filtered import orient3d
 
 U = 2.0**-53
@@ -45,7 +46,7 @@ MOST = 2.0**80  # of a radius squared
 SLACK = 2.0**-21
 
 
-@numba.njit(cache=True, error_model="numpy", inline="always")
+@cached_njit(error_model="numpy", inline="always")
 def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, spheres, radii):
     """Store the spheres of tetrahedra (site, p[f], q[f], r[f]) in slots[f], for f below ``facets``.
 
@@ -87,7 +88,7 @@ def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, s
     return open_ones
 
 
-@numba.njit(cache=True)
+@cached_njit
 def flat(points, radii, site, p, q, r, near, slots, facets, w):
     """Whether one of these tetrahedra that have no sphere and no infinite vertex is not positive; exact."""
     for f in range(facets):

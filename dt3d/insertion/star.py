@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import numba
 
+from .._kernel_cache import cached_njit
 from .layout import INFINITE
 
 NARROW = 6  # a star of up to 2^6 vertices is linked through a table of all edges
 
 
-@numba.njit(inline="always", cache=True, error_model="numpy")
+@cached_njit(inline="always", error_model="numpy")
 def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
     """Replace the vertices of the facets by 0, 1, 2, ...; returns how many there are.
 
@@ -41,7 +42,7 @@ def number_vertices(rows, labels, x, y, z, rim, facets, near, rel, at):
     return count
 
 
-@numba.njit(inline="always", cache=True, error_model="numpy")
+@cached_njit(inline="always", error_model="numpy")
 def link_narrow(mesh, p, q, r, slots, facets, edges):
     """Make neighbours of star tetrahedra that share an edge of the rim, in a table of directed edges.
 
@@ -66,7 +67,7 @@ def link_narrow(mesh, p, q, r, slots, facets, edges):
     return rest == 0
 
 
-@numba.njit(cache=True, error_model="numpy")
+@cached_njit(error_model="numpy")
 def link_wide(mesh, p, q, r, slots, facets, keys, values):
     """The same for any number of vertices, in a hash table of a power of two slots, over 6 * facets.
 
@@ -98,13 +99,13 @@ def link_wide(mesh, p, q, r, slots, facets, keys, values):
     return True
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def _edge(p, q, r, i):
     """The directed edge opposite the i-th of three vertices."""
     a, b = (q, r) if i == 0 else ((r, p) if i == 1 else (p, q))
     return numba.int64(a) << 32 | numba.int64(b)
 
 
-@numba.njit(inline="always", cache=True)
+@cached_njit(inline="always")
 def _first_slot(key, size):
     return ((key * 0x9E3779B97F4A7C1) >> 20) & (size - 1)

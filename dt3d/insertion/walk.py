@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import numba
 
+from .._kernel_cache import cached_njit
 from ..predicates.filtered import ORIENT3D_BOUND, orient3d
 from .layout import INFINITE
 from .ownership import owns, owns_one
 
 
-@numba.njit(cache=True, error_model="numpy")
+@cached_njit(error_model="numpy")
 def _orientation(rows, s, a, b, c):
     """Determinant of a - s, b - s, c - s, and a bound of its error."""
     x, y, z = rows[4 * s], rows[4 * s + 1], rows[4 * s + 2]
@@ -22,7 +23,7 @@ def _orientation(rows, s, a, b, c):
     return det, ORIENT3D_BOUND * size
 
 
-@numba.njit(inline="always", cache=True, error_model="numpy")
+@cached_njit(inline="always", error_model="numpy")
 def walk(points, rows, mesh, t, site, low, length, n, slack, w):
     """From t to the tetrahedron that contains a site, or a ghost whose facet it is beyond.
 
@@ -79,7 +80,7 @@ def walk(points, rows, mesh, t, site, low, length, n, slack, w):
     return t, found, steps
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy")
+@cached_njit(nogil=True, error_model="numpy")
 def locate(points, rows, mesh, t, site, slack, w):
     """The tetrahedron that contains a site, or a ghost; for when no thread inserts. -1 if the walk does not
     end."""

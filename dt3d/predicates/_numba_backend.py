@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from . import filtered, filtered2d
 from .work import scaled, work_array
 
@@ -17,25 +17,25 @@ def signs(predicate: str, cases: np.ndarray) -> np.ndarray:
     return out
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _orient2d(cases, w, out):
     for i in range(len(out)):
         out[i] = filtered2d.orient2d(cases[i], 0, 1, 2, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _orient3d(cases, w, out):
     for i in range(len(out)):
         out[i] = filtered.orient3d(cases[i], 0, 1, 2, 3, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _in_circle(cases, w, out):
     for i in range(len(out)):
         out[i] = filtered2d.in_circle(cases[i], 0, 1, 2, 3, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _in_sphere(cases, w, out):
     for i in range(len(out)):
         out[i] = filtered.in_sphere(cases[i], 0, 1, 2, 3, 4, w)

@@ -17,8 +17,7 @@ The bounds, as in `filtered`, with differences that are exact and at most 5 u^2 
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from . import double_double as dd
 from .double_double import two_sum
 from .exact import in_sphere_exact, orient3d_exact
@@ -37,7 +36,7 @@ IN_SPHERE_STEPS = 9, 18
 NOTHING = 2.0**-110
 
 
-@numba.njit(cache=True)
+@cached_njit
 def row(points, p, q):
     """Point p minus point q, in space, as three pairs; exact."""
     return (
@@ -47,7 +46,7 @@ def row(points, p, q):
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def on_lattice(rows, m, bits):
     """Whether all entries are single doubles, and multiples of a power of two of which m has at most 2^bits.
 
@@ -61,7 +60,7 @@ def on_lattice(rows, m, bits):
     return True
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _determinant(p, q, r):
     return dd.add(
         dd.add(dd.multiply(dd.minor(p, q), r[2]), dd.multiply(dd.minor(q, r), p[2])),
@@ -69,7 +68,7 @@ def _determinant(p, q, r):
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient3d_adaptive(points, a, b, c, d, det, x, y, z, w):
     """Sign of det[b-a, c-a, d-a], of which det, x, y, z are the rounded value and X, Y, Z."""
     if x == 0.0 or y == 0.0 or z == 0.0:
@@ -90,7 +89,7 @@ def orient3d_adaptive(points, a, b, c, d, det, x, y, z, w):
     return orient3d_exact(points, a, b, c, d, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_sphere_adaptive(points, a, b, c, d, e, det, x, y, z, w):
     """Sign of the in-sphere determinant, of which det, x, y, z are the rounded value and X, Y, Z."""
     rows = row(points, a, e), row(points, b, e), row(points, c, e), row(points, d, e)
@@ -109,7 +108,7 @@ def in_sphere_adaptive(points, a, b, c, d, e, det, x, y, z, w):
     return in_sphere_exact(points, a, b, c, d, e, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _in_sphere(a, b, c, d):
     ab, bc, cd = dd.minor(a, b), dd.minor(b, c), dd.minor(c, d)
     da, ac, bd = dd.minor(d, a), dd.minor(a, c), dd.minor(b, d)
@@ -123,11 +122,11 @@ def _in_sphere(a, b, c, d):
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _sum3(a, b, c):
     return dd.add(dd.add(a, b), c)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _minus(a):
     return -a[0], -a[1]

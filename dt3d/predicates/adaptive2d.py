@@ -9,8 +9,7 @@ The bounds, with differences that are exact and at most 5 u^2 for each rounding:
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from . import double_double as dd
 from .adaptive import NOTHING, on_lattice
 from .double_double import two_sum
@@ -25,13 +24,13 @@ ORIENT2D_STEPS = 25, 49
 IN_CIRCLE_STEPS = 12, 23
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _row(points, p, q):
     """Point p minus point q, in the plane, as two pairs; exact."""
     return two_sum(points[p, 0], -points[q, 0]), two_sum(points[p, 1], -points[q, 1])
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient2d_adaptive(points, a, b, c, det, x, y, w):
     """Sign of det[b-a, c-a], of which det, x, y are the rounded value and X, Y."""
     if x == 0.0 or y == 0.0:
@@ -52,7 +51,7 @@ def orient2d_adaptive(points, a, b, c, det, x, y, w):
     return orient2d_exact(points, a, b, c, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_circle_adaptive(points, a, b, c, d, det, x, y, w):
     """Sign of the in-circle determinant, of which det, x, y are the rounded value and X, Y."""
     rows = _row(points, a, d), _row(points, b, d), _row(points, c, d)
@@ -71,7 +70,7 @@ def in_circle_adaptive(points, a, b, c, d, det, x, y, w):
     return in_circle_exact(points, a, b, c, d, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _in_circle(a, b, c):
     total = dd.add(dd.multiply(dd.square(a), dd.minor(b, c)), dd.multiply(dd.square(b), dd.minor(c, a)))
     return dd.add(total, dd.multiply(dd.square(c), dd.minor(a, b)))

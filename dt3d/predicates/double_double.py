@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 from numba import types
 from numba.extending import intrinsic
+
+from .._kernel_cache import cached_njit
 
 
 @intrinsic
@@ -26,7 +27,7 @@ def fma(context: Any, a: Any, b: Any, c: Any) -> Any:
     return types.float64(types.float64, types.float64, types.float64), generate
 
 
-@numba.njit(cache=True)
+@cached_njit
 def two_sum(a, b):
     """s + r = a + b exactly, s the rounded sum (Knuth)."""
     s = a + b
@@ -34,21 +35,21 @@ def two_sum(a, b):
     return s, (a - (s - virtual)) + (b - virtual)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def two_product(a, b):
     """p + r = a b exactly, p the rounded product, unless the product underflows."""
     p = a * b
     return p, fma(a, b, -p)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _fast_two_sum(a, b):
     """s + r = a + b exactly, where a is not smaller in magnitude (Dekker)."""
     s = a + b
     return s, b - (s - a)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def add(a, b):
     """The sum of two pairs."""
     s, low = two_sum(a[0], b[0])
@@ -57,26 +58,26 @@ def add(a, b):
     return _fast_two_sum(s, rest + low)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def subtract(a, b):
     """The difference of two pairs."""
     return add(a, (-b[0], -b[1]))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def multiply(a, b):
     """The product of two pairs."""
     p, low = two_product(a[0], b[0])
     return _fast_two_sum(p, low + fma(a[1], b[0], fma(a[0], b[1], a[1] * b[1])))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def minor(p, q):
     """x_p y_q - x_q y_p."""
     return subtract(multiply(p[0], q[1]), multiply(q[0], p[1]))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def square(p):
     """|p|^2 of a vector of pairs."""
     total = multiply(p[0], p[0])

@@ -15,18 +15,18 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numba import types
 from numba.extending import intrinsic
 
+from .._kernel_cache import cached_njit
 from .work import SLACK
 
 BITS = 27
 HALF = 1 << (BITS - 1)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient2d_exact(points, a, b, c, w):
     """Sign of det[b-a, c-a] of three rows of ``points``."""
     x = _integers(w)
@@ -35,7 +35,7 @@ def orient2d_exact(points, a, b, c, w):
     return _sign(x, 4 * n, 2 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient3d_exact(points, a, b, c, d, w):
     """Sign of det[b-a, c-a, d-a] of four rows of ``points``."""
     x = _integers(w)
@@ -44,7 +44,7 @@ def orient3d_exact(points, a, b, c, d, w):
     return _sign(x, 9 * n, 3 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_circle_exact(points, a, b, c, d, w):
     """Sign of the in-circle determinant: 1 where d is inside the circle of the positive triangle abc."""
     x = _integers(w)
@@ -59,7 +59,7 @@ def in_circle_exact(points, a, b, c, d, w):
     return _sign(x, total, 4 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_sphere_exact(points, a, b, c, d, e, w):
     """Sign of the in-sphere determinant: 1 where e is inside the sphere of the positive tetrahedron abcd."""
     x = _integers(w)
@@ -75,7 +75,7 @@ def in_sphere_exact(points, a, b, c, d, e, w):
     return _sign(x, total, 5 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _integers(w):
     """The work array behind the slack, for integers."""
     return w[SLACK + 1 :].view(np.int64)
@@ -91,7 +91,7 @@ def _bits(context: Any, x: Any) -> Any:
     return types.int64(types.float64), generate
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _parts(x):
     """m and e with |x| = m 2^(e - 1075): up to 53 bits, and an exponent from 1 to 2046."""
     bits = _bits(x)
@@ -99,7 +99,7 @@ def _parts(x):
     return (fraction, 1) if exponent == 0 else (fraction | 1 << 52, exponent)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _reach(points, i, least, greatest):
     """The least and the greatest exponent of a bit that is set, so far and in a point."""
     for c in range(points.shape[1]):
@@ -111,7 +111,7 @@ def _reach(points, i, least, greatest):
     return least, greatest
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _enter(points, rows, origin, x):
     """Put the digits of some points minus another at x[0], row after row; returns their length."""
     least, greatest = _reach(points, origin, 4000, 0)
@@ -129,7 +129,7 @@ def _enter(points, rows, origin, x):
     return n
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _add_coordinate(x, at, value, unit):
     """Add a coordinate, a multiple of 2^(unit - 1075)."""
     m, e = _parts(value)
@@ -144,7 +144,7 @@ def _add_coordinate(x, at, value, unit):
         x[at + place + 1] += sign * high
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _minor(x, n, p, q, at):
     """Put x_p y_q - x_q y_p, of the rows at p and q, at x[at], 2 n digits."""
     _clear(x, at, 2 * n)
@@ -153,7 +153,7 @@ def _minor(x, n, p, q, at):
     _carry(x, at, 2 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _determinant(x, n, p, q, r, at):
     """Put the determinant of the rows at p, q and r at x[at], 3 n digits; 2 n behind are used."""
     _clear(x, at, 3 * n)
@@ -163,7 +163,7 @@ def _determinant(x, n, p, q, r, at):
     _carry(x, at, 3 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _lift(x, n, p, dimension, at):
     """Put the squared length of the row at p at x[at], 2 n digits."""
     _clear(x, at, 2 * n)
@@ -172,13 +172,13 @@ def _lift(x, n, p, dimension, at):
     _carry(x, at, 2 * n)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _clear(x, at, n):
     for i in range(at, at + n):
         x[i] = 0
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _add_product(x, at, a, na, b, nb, sign):
     """Add the product of the numbers at a and b, or subtract it."""
     for i in range(na):
@@ -188,7 +188,7 @@ def _add_product(x, at, a, na, b, nb, sign):
                 x[at + i + j] += factor * x[b + j]
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _carry(x, at, n):
     for i in range(at, at + n - 1):
         over = (x[i] + HALF) >> BITS
@@ -196,7 +196,7 @@ def _carry(x, at, n):
         x[i + 1] += over
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _sign(x, at, n):
     for i in range(at + n - 1, at - 1, -1):
         if x[i] != 0:

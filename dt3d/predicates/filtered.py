@@ -21,8 +21,7 @@ Contraction to fused multiply-add leaves out roundings and adds none, so both ho
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .adaptive import in_sphere_adaptive, orient3d_adaptive
 from .work import SLACK
 
@@ -30,7 +29,7 @@ ORIENT3D_BOUND = 49.0 * 2.0**-53
 IN_SPHERE_BOUND = 1240.0 * 2.0**-53
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient3d(points, a, b, c, d, w):
     """Sign of det[b-a, c-a, d-a] of four rows of ``points``."""
     x, y, z = points[a, 0], points[a, 1], points[a, 2]
@@ -47,7 +46,7 @@ def orient3d(points, a, b, c, d, w):
     return orient3d_adaptive(points, a, b, c, d, det, x, y, z, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_sphere(points, a, b, c, d, e, w):
     """1 inside, -1 outside, 0 on the circumsphere of the positive tetrahedron abcd; rows of ``points``."""
     x, y, z = points[e, 0], points[e, 1], points[e, 2]

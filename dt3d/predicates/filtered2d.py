@@ -20,9 +20,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 from numba.extending import intrinsic
 
+from .._kernel_cache import cached_njit
 from .adaptive2d import in_circle_adaptive, orient2d_adaptive
 from .outlined import call_outlined
 from .work import SLACK
@@ -45,7 +45,7 @@ def _in_circle_open(
     return call_outlined(typingctx, in_circle_adaptive, (points, a, b, c, d, det, x, y, w))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orient2d(points, a, b, c, w):
     """Sign of det[b-a, c-a] of three rows of ``points``."""
     bx, by = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1]
@@ -59,7 +59,7 @@ def orient2d(points, a, b, c, w):
     return _orient2d_open(points, a, b, c, det, x, y, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def in_circle(points, a, b, c, d, w):
     """1 inside, -1 outside, 0 on the circumcircle of the positive triangle abc; rows of ``points``."""
     x, y = points[d, 0], points[d, 1]

@@ -9,12 +9,11 @@ vertex removal in a 3D Delaunay triangulation, SODA 2003).
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .filtered import in_sphere, orient3d
 
 
-@numba.njit(cache=True)
+@cached_njit
 def inside(points, v, site, w):
     """Whether a site is inside the perturbed circumsphere of the positive tetrahedron v, four sites."""
     sign = in_sphere(points, v[0], v[1], v[2], v[3], site, w)
@@ -23,7 +22,7 @@ def inside(points, v, site, w):
     return inside_tied(points, v, site, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def inside_tied(points, v, site, w):
     """The perturbed in-sphere test of a site on the circumsphere of tetrahedron v, a tuple of four sites.
 
@@ -46,7 +45,7 @@ def inside_tied(points, v, site, w):
     return False
 
 
-@numba.njit(cache=True)
+@cached_njit
 def before(points, i, j):
     """Whether row i of ``points`` precedes row j in the lexicographic order of coordinates."""
     for k in range(3):
@@ -55,7 +54,7 @@ def before(points, i, j):
     return False
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orientation_with(points, v, k, site, w):
     """Orientation of a tetrahedron with the site in the place of its k-th vertex."""
     a = site if k == 0 else v[0]

@@ -6,12 +6,11 @@ coordinates, the first infinitely larger than the next.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .filtered2d import in_circle, orient2d
 
 
-@numba.njit(cache=True)
+@cached_njit
 def inside(points, rank, v, site, w):
     """Whether a site is inside the perturbed circumcircle of the positive triangle v, three sites.
 
@@ -23,7 +22,7 @@ def inside(points, rank, v, site, w):
     return _inside_tied(points, rank, v, site, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _inside_tied(points, rank, v, site, w):
     """The perturbed in-circle test of a site on the circumcircle of triangle v.
 
@@ -37,7 +36,7 @@ def _inside_tied(points, rank, v, site, w):
     return k < 3 and orientation_with(points, v, k, site, w) > 0
 
 
-@numba.njit(cache=True)
+@cached_njit
 def orientation_with(points, v, k, site, w):
     """Orientation of a triangle with the site in the place of its k-th vertex."""
     a = site if k == 0 else v[0]

@@ -12,12 +12,13 @@ import ctypes
 import sys
 from typing import Any
 
-import numba
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
+
+from .._kernel_cache import cached_njit
 
 
 def element(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any) -> Any:
@@ -145,7 +146,7 @@ give_way = types.ExternalFunction(_YIELD, types.int32())
 _sleep = types.ExternalFunction(_SLEEP, types.int32(types.uint32))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def nap():
     """Sleep for some 30 microseconds."""
     _sleep(np.uint32(_NAP))
@@ -154,7 +155,7 @@ def nap():
 PATIENCE = 64
 
 
-@numba.njit(cache=True)
+@cached_njit
 def wait_a_little(turn):
     """Give way; from the `PATIENCE`-th turn in a row on, sleep for some 30 microseconds each time.
 
@@ -167,14 +168,14 @@ def wait_a_little(turn):
         nap()
 
 
-@numba.njit(cache=True)
+@cached_njit
 def acquire(words, at, me):
     """Take the lock words[at], which is 0 when free; ``me`` is not 0."""
     while not compare_and_swap(words, at, 0, me):
         give_way()
 
 
-@numba.njit(cache=True)
+@cached_njit
 def release(words, at):
     """Give the lock back."""
     store_release(words, at, 0)

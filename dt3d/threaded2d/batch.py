@@ -11,8 +11,7 @@ The specialised thread knows which sites come next, and asks for their leaves wh
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .dag import descend
@@ -36,12 +35,12 @@ from .store import (
 from .walk import walk_history
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _finish(points, nodes, t, q, walking, w):
     return walk_history(points, nodes, t, q, w) if walking else descend(points, nodes, t, q, w)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, walking, helping, w):
     """One step of searching thread ``me``: locate a site, put some into the queue, or help."""
     if state[me, HELPED] != 0:
@@ -70,7 +69,7 @@ def search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, wa
     return WAITING
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w):
     """One step of the specialised thread: an element from the queue is inserted."""
     if state[me, INSERTED] == len(points) - 3:
@@ -95,7 +94,7 @@ def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
     return CHANGED
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, walking, helping, w):
     """A searching thread until its sites are in the queue; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
@@ -113,7 +112,7 @@ def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, 
         stumble(shared, state, me)
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)

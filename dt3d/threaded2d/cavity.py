@@ -7,8 +7,7 @@ around them in order (A. Bowyer 1981, D. F. Watson 1981).
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .atomics import compare_and_swap, load, store_release
 from .geometry import conflicts
 from .store import CHILD, LOCK, NEIGHBOR
@@ -16,7 +15,7 @@ from .store import CHILD, LOCK, NEIGHBOR
 BUSY = -1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _own(nodes, t, lock, held, count):
     """Lock t unless it is ours; how many are held then, or `BUSY`."""
     if load(nodes, (t, LOCK)) == lock:
@@ -27,20 +26,20 @@ def _own(nodes, t, lock, held, count):
     return count + 1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def give_back(nodes, held, count):
     """Unlock what is held."""
     for i in range(count):
         store_release(nodes, (held[i], LOCK), 0)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def in_conflict(points, nodes, t, q, w):
     """Whether site q is in conflict with triangle t."""
     return conflicts(points, nodes[t, 0], nodes[t, 1], nodes[t, 2], q, w)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def claim(points, nodes, t, q, lock, held, cavity, rim, w):
     """Find the conflicts with q from t on, into ``cavity``, and the edges around them, into ``rim``.
 

@@ -15,8 +15,7 @@ swaps. The paper makes up for those in the end. Here all threads pause as soon a
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from ..predicates.filtered2d import orient2d
 from .atomics import cycles, load, load_acquire, wait_a_little
@@ -86,17 +85,17 @@ def ahead(n: int, threads: int) -> int:
     return min(HEAD_START, n // (8 * threads)) // threads
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _edge(nodes, t, k):
     return load_acquire(nodes, (t, NEIGHBOR + k))
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _is_leaf(nodes, t):
     return load_acquire(nodes, (t, CHILD)) < 0
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _edge_through(points, nodes, t, q, w):
     """Which edge of t site q, which t contains, lies on; -1 where on none. Edges at infinity pass through no
     site."""
@@ -110,7 +109,7 @@ def _edge_through(points, nodes, t, q, w):
     return -1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     """Subdivide the leaf that contains the site of ``me``, or find whom to wait for."""
     q = state[me, SITE]
@@ -158,7 +157,7 @@ def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
     return CHANGED
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _try_flip(points, nodes, shared, state, pool, me, f, w):
     """Flip the edge of star triangle f opposite the site of ``me``, or find whom to wait for."""
     state[me, ACCESSES] += 1
@@ -178,7 +177,7 @@ def _try_flip(points, nodes, shared, state, pool, me, f, w):
     return CHANGED
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
     """Go round the star to the next edge to be flipped, and try that; or end the insertion."""
     f = state[me, NODE]
@@ -203,7 +202,7 @@ def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
     return CHANGED
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w):
     """One step of thread ``me``: locate a site, publish one, try to subdivide, or try to flip an edge."""
     if still_waits(pool, me):
@@ -229,7 +228,7 @@ def step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, wal
     return CHANGED
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alone, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before.
 

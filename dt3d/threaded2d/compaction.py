@@ -7,16 +7,16 @@ from __future__ import annotations
 
 from functools import partial
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .store import CHILD, NEIGHBOR
 from .threads import briefly
 
 PIECE_BITS = 14  # of a node's number within its piece
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _number(nodes, used, first, step, number, counts):
     """Number the finite leaves of each piece from 0 on, -1 for other nodes, and count them; of the pieces
     first, first + step, ..."""
@@ -31,7 +31,7 @@ def _number(nodes, used, first, step, number, counts):
         counts[piece] = m
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _collect(nodes, used, first, step, number, before, site, triangles, neighbors, maker):
     """Write the finite leaves of pieces; ``before`` each are so many of other pieces."""
     for piece in range(first, len(before), step):

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .cavity import in_conflict
 from .flips import flip
@@ -21,7 +21,7 @@ from .suspects import leaves_below
 from .threads import together
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _illegal(points, nodes, t, k, w):
     """Whether edge k of t is: the far vertex of one side in conflict with the triangle on the other."""
     edge = nodes[t, NEIGHBOR + k]
@@ -31,7 +31,7 @@ def _illegal(points, nodes, t, k, w):
     return far != INFINITE and in_conflict(points, nodes, t, far, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _flip(nodes, shared, state, t, k):
     """Flip edge k of t; the first of the two new triangles. They count as made by the thread that made t."""
     me = -1 - nodes[t, CHILD]
@@ -41,7 +41,7 @@ def _flip(nodes, shared, state, t, k):
     return flip(nodes, shared, state, me, t, k, 0)
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _flip_illegal(points, nodes, shared, state, edges, w):
     """Flip those of ``edges`` that are illegal, and what gets illegal thereby, until there are none, or there
     is no room for more triangles, or all threads have to stop; how many flips, and the edges that are left.

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from ..predicates import work_array
 from ..predicates.borrowed import borrowed
 from . import sequential
@@ -80,7 +80,7 @@ def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
     return store, share(order, bounds)
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _tests(points, nodes, leaves, sites, rounds, w):
     """Test leaves and their neighbours against sites far away, as the pool's are; how many tests touched."""
     points, nodes, w = borrowed(points), borrowed(nodes), borrowed(w)

@@ -6,14 +6,13 @@ them.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .geometry import root_of, side
 from .store import CHILD
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def child_of(points, nodes, t, child, q, w):
     """The child of t that contains q; ``child`` is the word of t that names them."""
     first = child >> 1
@@ -27,7 +26,7 @@ def child_of(points, nodes, t, child, q, w):
     return first + 2 if side(points, nodes, p, nodes[t, 2], q, w) >= 0 else first + 1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def descend(points, nodes, t, q, w):
     """The leaf below t that contains q, and how many nodes were visited."""
     visited = 0
@@ -39,7 +38,7 @@ def descend(points, nodes, t, q, w):
         visited += 1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def locate(points, nodes, q, w):
     """The leaf that contains q, and how many nodes were visited on the way from its root."""
     return descend(points, nodes, root_of(points, nodes, q, w), q, w)

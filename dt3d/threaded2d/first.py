@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
 from .._input import no_area
+from .._kernel_cache import cached_njit
 from ..predicates import work_array
 from ..predicates.filtered2d import orient2d
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _first(points, order, w):
     for i in range(2, len(order)):
         sign = orient2d(points, order[0], order[1], order[i], w)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .atomics import store_release
 from .geometry import conflicts
 from .store import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _write(nodes, t, p, a, b, outer, following, previous, maker, lock):
     """The star triangle pab: across ab lies the edge ``outer``, beside it the star's next and previous
     ones."""
@@ -19,13 +18,13 @@ def _write(nodes, t, p, a, b, outer, following, previous, maker, lock):
     nodes[t, LOCK] = lock
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _point_back(nodes, edge, t, k):
     """Make the triangle beyond ``edge`` know that t, with its k-th edge, is now its neighbour."""
     store_release(nodes, (edge >> 2, NEIGHBOR + (edge & 3)), 4 * t + k)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def subdivide(nodes, shared, state, me, t, p, lock):
     """Three triangles about p in the place of leaf t; the first of them."""
     first = fresh(state, me, shared, 3)
@@ -41,7 +40,7 @@ def subdivide(nodes, shared, state, me, t, p, lock):
     return first
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def flip(nodes, shared, state, me, f, k, lock):
     """Flip the edge of f opposite its k-th vertex, which is finite; the first of the two new triangles, which
     have that vertex first."""
@@ -65,14 +64,14 @@ def flip(nodes, shared, state, me, f, k, lock):
     return first
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def illegal(points, nodes, f, w):
     """Whether the edge of star triangle f opposite its first vertex has to be flipped."""
     u = nodes[f, NEIGHBOR] >> 2
     return conflicts(points, nodes[u, 0], nodes[u, 1], nodes[u, 2], nodes[f, 0], w)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def insert(points, nodes, shared, state, me, t, p, lock, w):
     """Subdivide leaf t, which contains p, and legalise: once about the star of p.
 

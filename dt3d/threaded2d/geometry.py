@@ -12,21 +12,21 @@ the hull once.
 
 from __future__ import annotations
 
-import numba
 from numba.extending import intrinsic
 
+from .._kernel_cache import cached_njit
 from ..predicates.filtered2d import in_circle, orient2d
 from ..predicates.outlined import call_outlined
 from .store import INFINITE
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _before(points, a, b):
     """Whether a comes before b in the lexicographic order of coordinates."""
     return points[a, 0] < points[b, 0] or (points[a, 0] == points[b, 0] and points[a, 1] < points[b, 1])
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _inside_tied(points, a, b, c, q, w):
     """The perturbed in-circle test of a site on the circle of abc: the first of the four, in order, decides.
 
@@ -54,7 +54,7 @@ def _call_inside_tied(typingctx, points, a, b, c, q, w):
     return call_outlined(typingctx, _inside_tied, (points, a, b, c, q, w))
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _between(points, a, b, q):
     """Whether q, on the line ab and neither a nor b, lies between them."""
     if points[a, 0] != points[b, 0]:
@@ -62,7 +62,7 @@ def _between(points, a, b, q):
     return (points[a, 1] < points[q, 1]) == (points[q, 1] < points[b, 1])
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _conflicts_with_ghost(points, a, b, q, w):
     sign = orient2d(points, a, b, q, w)
     return sign > 0 or (sign == 0 and _between(points, a, b, q))
@@ -73,7 +73,7 @@ def _call_conflicts_with_ghost(typingctx, points, a, b, q, w):
     return call_outlined(typingctx, _conflicts_with_ghost, (points, a, b, q, w))
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def conflicts(points, a, b, c, q, w):
     """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of
     them."""
@@ -87,7 +87,7 @@ def conflicts(points, a, b, c, q, w):
     return _call_conflicts_with_ghost(points, a, b, q, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _side_of_ray(points, s0, s1, s2, p, q, w):
     """Orientation of the centre, p and q; 0 only where p is q."""
     sign = orient2d(points, s0, p, q, w)
@@ -103,7 +103,7 @@ def _call_side_of_ray(typingctx, points, s0, s1, s2, p, q, w):
     return call_outlined(typingctx, _side_of_ray, (points, s0, s1, s2, p, q, w))
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def side(points, nodes, p, v, q, w):
     """Where q lies from the line that leads from site p to v, a site or infinite: 1 left, -1 right, 0 on
     it."""
@@ -112,7 +112,7 @@ def side(points, nodes, p, v, q, w):
     return _call_side_of_ray(points, nodes[0, 0], nodes[0, 1], nodes[0, 2], p, q, w)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def root_of(points, nodes, q, w):
     """The root, 0 to 3, that contains site q, which is not a vertex of the first triangle."""
     s0, s1, s2 = nodes[0, 0], nodes[0, 1], nodes[0, 2]

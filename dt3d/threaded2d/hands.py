@@ -6,9 +6,9 @@ itself; the location goes on from there. What the insertion will need is asked f
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .lanes import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
 from .prefetch import prefetch_around, prefetch_beyond
 from .queue import ITEM_NODE, ITEM_SITE
@@ -24,7 +24,7 @@ def empty_hands(threads: int) -> np.ndarray:
     return np.empty((threads, AT_ONCE + 1, 2), np.int64)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
     """Locate one more site of thread ``me``, into its hands; whether one was left."""
     if walking:
@@ -54,7 +54,7 @@ def locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
     return True
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def prepare(points, nodes, hands, at, count):
     """Ask for what the insertions after that of hands[at] will need: first the surroundings of a site's leaf,
     then what lies beyond them."""

@@ -6,9 +6,9 @@ before. Several of them wait together.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .dag import child_of
 from .geometry import root_of
@@ -28,7 +28,7 @@ def empty_lanes(threads: int) -> np.ndarray:
     return np.full((threads, LANES, 4), EMPTY, np.int64)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _look_ahead(nodes, lanes, i, t):
     """Let lane i go on from node t; whether t is a leaf."""
     child = load_acquire(nodes, (t, CHILD))
@@ -41,14 +41,14 @@ def _look_ahead(nodes, lanes, i, t):
     return False
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def start(points, nodes, lanes, i, q, w):
     """Let site q begin in lane i, at its root."""
     lanes[i, LANE_SITE] = q
     _look_ahead(nodes, lanes, i, root_of(points, nodes, q, w))
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def advance(points, nodes, lanes, w):
     """Go on in all lanes until a site is located: its lane, or `EMPTY` where all are empty; and how many
     nodes were visited."""

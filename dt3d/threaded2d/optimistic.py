@@ -8,8 +8,7 @@ holds anything.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import cycles, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
@@ -40,7 +39,7 @@ from .store import (
 BEGIN, CLAIM, CHANGE = range(3)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _unlock_star(nodes, f):
     """Unlock the star triangles about the first vertex of f, which this thread made locked."""
     last = nodes[f, 1]
@@ -53,7 +52,7 @@ def _unlock_star(nodes, f):
         f = following
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def step(points, nodes, shared, state, sites, held, cavity, rim, me, w):
     """One step of thread ``me``: locate a site, get exclusive access, or subdivide and legalise."""
     if state[me, PHASE] == BEGIN:
@@ -87,7 +86,7 @@ def step(points, nodes, shared, state, sites, held, cavity, rim, me, w):
     return CHANGED
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, scratch, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)

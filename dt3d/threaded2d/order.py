@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from functools import partial
 
-import numba
 import numpy as np
 
 from .._input import first_copies
+from .._kernel_cache import cached_njit
 from .sorting import sort_runs
 
 SMALLEST_ROUND = 64
@@ -45,7 +45,7 @@ _TURNS = _turns()
 _COORDINATE_BITS = 24
 
 
-@numba.njit(nogil=True, cache=True, forceinline=True)
+@cached_njit(nogil=True, forceinline=True)
 def _hilbert(x, y):
     """The place of cell (x, y), of 2^24 a side, along Hilbert's curve."""
     place, turn = np.uint64(0), np.int64(0)
@@ -56,7 +56,7 @@ def _hilbert(x, y):
     return place
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _keys(points, low_x, low_y, half, scale, bits, index_bits, out, begin):
     """Places along the curve, of 2^bits cells a side, with the numbers of the sites in the low bits; of as
     many sites from ``begin`` on as there is room for.
@@ -74,7 +74,7 @@ def _keys(points, low_x, low_y, half, scale, bits, index_bits, out, begin):
         out[i - begin] = (place << np.uint64(index_bits)) | np.uint64(i)
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _extent(points):
     low_x = high_x = points[0, 0]
     low_y = high_y = points[0, 1]
@@ -117,7 +117,7 @@ def along_curve(points: np.ndarray, threads: int = 1) -> tuple[np.ndarray, np.nd
     return index[~copy[index]], pairs
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def mixed(i, seed):
     """64 random bits for number i: SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014)."""
     z = np.uint64(i) + np.uint64(seed) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(0x632BE59BD9B4E019)
@@ -126,7 +126,7 @@ def mixed(i, seed):
     return z ^ (z >> np.uint64(31))
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _round_of(i, seed, rounds):
     """The round of site i: the last with probability 1/2, the one before with 1/4, and so on."""
     z = mixed(i, seed)
@@ -137,7 +137,7 @@ def _round_of(i, seed, rounds):
     return r
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _sort_rounds(part, parts, seed, rounds):
     count = np.zeros(parts * rounds + 1, np.int64)
     n = len(part)

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import compare_and_swap, cycles, give_way, load, release
 from .dag import descend
@@ -27,7 +26,7 @@ from .store import (
 from .walk import walk_history
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)

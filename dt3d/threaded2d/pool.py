@@ -5,9 +5,9 @@ Each thread has a row of its own, which the others read.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .atomics import acquire, load, load_acquire, release, store, store_release
 from .geometry import conflicts
 from .store import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
@@ -32,13 +32,13 @@ def empty_pool(threads: int) -> np.ndarray:
     return pool
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def publish(pool, me, q):
     """Enter site q, visibly to all before this thread looks for the sites of others."""
     store(pool, (me, POOL_SITE), q)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def retire(pool, me):
     """Take the site of this thread, which is inserted, out of the pool."""
     clear_exception(pool, me)
@@ -46,20 +46,20 @@ def retire(pool, me):
     store_release(pool, (me, SERIAL), pool[me, SERIAL] + 1)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def clear_exception(pool, me):
     """Take the flag back. Nobody sets it now: that is done only to threads that wait."""
     if load(pool, (me, EXCEPTIONAL)) != 0:
         store_release(pool, (me, EXCEPTIONAL), 0)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _unfinished(pool, waits):
     """Whether the insertion that a word of WAITS_FOR names has not ended."""
     return load_acquire(pool, (waits & ((1 << THREAD_BITS) - 1), SERIAL)) == waits >> THREAD_BITS
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def still_waits(pool, me):
     """Whether the insertion that ``me`` waits for, if any, has not ended."""
     waits = pool[me, WAITS_FOR]
@@ -71,7 +71,7 @@ def still_waits(pool, me):
     return False
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _leads_to(pool, i, me):
     """Whether thread i waits for the present insertion of ``me``, through others perhaps.
 
@@ -93,14 +93,14 @@ def _leads_to(pool, i, me):
     return True
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def touches(points, nodes, t, q, w):
     """Whether the insertion of q may change t: it is in conflict, or a vertex already."""
     a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
     return a == q or b == q or c == q or conflicts(points, a, b, c, q, w)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def blocker_of(points, nodes, state, pool, me, triangles, count, w):
     """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished;
     or `NOBODY`.
@@ -129,7 +129,7 @@ def blocker_of(points, nodes, state, pool, me, triangles, count, w):
     return NOBODY, 0
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def wait_for(shared, pool, me, i, serial):
     """Enter that ``me`` waits for i, which had finished ``serial`` insertions, to finish one more, unless i
     waits for ``me`` already; whether it does."""

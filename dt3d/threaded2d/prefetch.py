@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
+from .._kernel_cache import cached_njit
 from .atomics import element
 from .store import NEIGHBOR
 
@@ -33,7 +33,7 @@ def prefetch(typingctx: Any, array: Any, row: Any) -> Any:
     return types.void(array, row), codegen
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def prefetch_around(points, nodes, t):
     """Ask for the vertices of t, which is at hand, and for its neighbours."""
     for k in range(3):
@@ -41,7 +41,7 @@ def prefetch_around(points, nodes, t):
         prefetch(points, nodes[t, k])
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def prefetch_beyond(points, nodes, t):
     """Ask for the far vertices of the neighbours of t, which are at hand, and what lies beyond them."""
     for k in range(3):

@@ -7,9 +7,9 @@ nobody up but at its own cells. The paper uses a short critical section instead.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .atomics import compare_and_swap, load, load_acquire, store_release
 from .store import HEAD, TAIL
 
@@ -24,7 +24,7 @@ def empty_queue(length: int) -> np.ndarray:
     return cells
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _reserve(cells, shared, end, ahead, wanted):
     """Up to ``wanted`` cells at one end of the queue, HEAD or TAIL: the place of the first, and how many.
 
@@ -43,7 +43,7 @@ def _reserve(cells, shared, end, ahead, wanted):
         at = now
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def put(cells, shared, items, first, count):
     """Append items[first : first + count], rows (site, node), or as many of them as there is room for; how
     many."""
@@ -56,7 +56,7 @@ def put(cells, shared, items, first, count):
     return room
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def get(cells, shared, items, first, count):
     """Take up to ``count`` elements, into items[first], items[first + 1], ...; how many there were."""
     at, found = _reserve(cells, shared, HEAD, 1, count)
@@ -68,7 +68,7 @@ def get(cells, shared, items, first, count):
     return found
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def fill_of(shared):
     """How many elements there are, while others come and go."""
     return max(0, load(shared, (TAIL, 0)) - load(shared, (HEAD, 0)))

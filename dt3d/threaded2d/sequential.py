@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .flips import insert
@@ -12,7 +11,7 @@ from .steps import DONE, GO_ON, find, spend, verdict
 from .store import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)

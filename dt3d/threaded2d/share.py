@@ -10,9 +10,9 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import add, load, padded
 from .store import END, NEXT, PART
@@ -58,13 +58,13 @@ def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.
     return np.concatenate(front + rest), bounds + left
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def borrowed_sites(sites):
     """The same without reference counts, for compiled kernels."""
     return borrowed(sites[0]), borrowed(sites[1]), borrowed(sites[2])
 
 
-@numba.njit(cache=True)
+@cached_njit
 def take(state, sites, me):
     """Take a piece, the sites NEXT to END - 1 of the order; whether there was one."""
     _, parts, taker = sites
@@ -84,7 +84,7 @@ def take(state, sites, me):
     return False
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def next_site(state, sites, me):
     """The next site of thread ``me``; -1 where there is none left for it."""
     if state[me, NEXT] == state[me, END] and not take(state, sites, me):

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .threads import briefly
 
 WORTH_A_THREAD = 20_000  # words: below that a thread takes longer to start than to sort them
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _merge_front(low, high, out):
     """The first len(out) // 2 words of two sorted runs together."""
     i = j = 0
@@ -27,7 +27,7 @@ def _merge_front(low, high, out):
             j += 1
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _merge_back(low, high, out):
     """The others, from the last one on."""
     i, j = len(low) - 1, len(high) - 1

@@ -6,8 +6,7 @@ the order, so that threads need not ask each other for memory.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import load, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
@@ -33,7 +32,7 @@ from .walk import walk
 AT_ONCE = 4  # attempts before a thread that does not get its triangles gives way
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _put(nodes, t, q, a, b, edge, following, previous, maker, lock):
     """The star triangle qab, whose edge ab is ``edge`` from beyond."""
     store_release(nodes, (t, LOCK), lock)
@@ -47,7 +46,7 @@ def _put(nodes, t, q, a, b, edge, following, previous, maker, lock):
     store_release(nodes, (edge >> 2, NEIGHBOR + (edge & 3)), 4 * t)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
     """Replace the cavity by the star of q, which has two triangles more: ``fresh`` and the one after it."""
     cavity[size], cavity[size + 1] = fresh, fresh + 1
@@ -59,7 +58,7 @@ def fill(nodes, q, cavity, size, rim, edges, fresh, maker, lock):
     return cavity[0]
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, lock, scratch, w):
     """Insert sites until none is left for this thread, each from the triangle where the last one was.
 

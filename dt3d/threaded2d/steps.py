@@ -6,8 +6,7 @@ loop over steps, and so does the scheduler of virtual time.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from .atomics import cycles, load, nap
 from .dag import locate
 from .store import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
@@ -22,13 +21,13 @@ LOCATED, CHANGED, WAITING, FINISHED = range(4)
 DONE, STOPPED, FULL, OPEN_SWAPS, GO_ON = range(5)
 
 
-@numba.njit(cache=True)
+@cached_njit
 def now():
     """The cycle counter."""
     return cycles()
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def verdict(shared, may_stop, may_fill):
     """`STOPPED` when all threads have to stop, `FULL` when the structure has to grow first, or `GO_ON`.
 
@@ -42,7 +41,7 @@ def verdict(shared, may_stop, may_fill):
     return GO_ON
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def find(points, nodes, state, me, q, walking, w):
     """The leaf that contains q, from the roots or by walking from the last one, and how many were visited."""
     if walking:
@@ -50,7 +49,7 @@ def find(points, nodes, state, me, q, walking, w):
     return locate(points, nodes, q, w)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def spend(state, me, column, begun):
     """Enter the cycles since ``begun`` into a column; now."""
     ended = cycles()
@@ -58,7 +57,7 @@ def spend(state, me, column, begun):
     return ended
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def pause(state, me, column, did, waiting, begun):
     """Account for a step of a thread at the queue, and wait a little where it has to: look again, then sleep.
 

@@ -19,9 +19,9 @@ made by an insertion, the inserted site is the first vertex.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .._memory import require
 from .atomics import add, give_way, padded
 
@@ -53,7 +53,7 @@ NODES_PER_SITE = 12
 STATE_COLUMNS = 32
 
 
-@numba.njit(cache=True)
+@cached_njit
 def write_roots(nodes, a, b, c):
     """Begin with the positive triangle abc and the ghosts beyond its edges."""
     nodes[:ROOTS] = 0
@@ -70,7 +70,7 @@ def write_roots(nodes, a, b, c):
     nodes[0, CHILD] = -1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def fresh(state, me, shared, count):
     """The first of ``count`` consecutive unused nodes."""
     at = state[me, BLOCK_AT]
@@ -81,7 +81,7 @@ def fresh(state, me, shared, count):
     return at
 
 
-@numba.njit(cache=True)
+@cached_njit
 def stumble(shared, state, me):
     """Give way at random, once in shared[STUMBLE] calls; never where that is 0. For tests under
     contention."""

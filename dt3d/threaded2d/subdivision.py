@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .order import brio, mixed
 
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _shuffle(slots, seed):
     """R. A. Fisher and F. Yates: each is exchanged with one of those up to it, at random."""
     for i in range(len(slots) - 1, 0, -1):
@@ -40,7 +40,7 @@ def parts_of(points: np.ndarray, subdivision: str, parts: int, seed: int) -> np.
     return out
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _rotate(order, starts):
     """Let part k of m begin each of its rounds after k / m of it."""
     parts, rounds = starts.shape[0], starts.shape[1] - 1

@@ -13,9 +13,9 @@ same with the site, and no edge between its triangles is illegal. The edges arou
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .atomics import store as atomic_store
 from .store import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
@@ -28,7 +28,7 @@ def empty_notes(threads: int) -> np.ndarray:
     return np.empty((threads, CAPACITY), np.int32)
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _place_of(nodes, t, q):
     """Which vertex of t site q is; 3 where it is none."""
     for k in range(3):
@@ -37,7 +37,7 @@ def _place_of(nodes, t, q):
     return 3
 
 
-@numba.njit(cache=True)
+@cached_njit
 def note_star(nodes, shared, state, notes, me, t, q):
     """Note the triangles around site q of thread ``me``, of which t is one or was one.
 
@@ -68,7 +68,7 @@ def noted(store: Store, notes: np.ndarray) -> np.ndarray:
     return np.concatenate([row[:count] for row, count in zip(notes, counts, strict=True)])
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def leaves_below(nodes, origins, seen, stack, leaves):
     """Enter the leaves that descend from ``origins``, each once, into ``leaves``; how many there are.
 

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from .. import _topology
+from .._kernel_cache import cached_njit
 from .._proof import Space, Verification, prove
 from ..predicates.filtered2d import in_circle, orient2d
 from .geometry import conflicts
@@ -73,7 +73,7 @@ def verify(
     )
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _orientations(sites, triangles, w):
     signs = np.empty(len(triangles), np.int8)
     for i in range(len(triangles)):
@@ -81,7 +81,7 @@ def _orientations(sites, triangles, w):
     return signs
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_inside(sites, triangles, apex, perturbed, w):
     count = 0
     for i in range(len(apex)):
@@ -93,7 +93,7 @@ def _count_inside(sites, triangles, apex, perturbed, w):
     return count
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _side(sites, triangle, a, b, w):
     """Where x lies from the line ab, never 0: the first vertex of the triangle that is not on it tells."""
     for j in range(3):
@@ -103,7 +103,7 @@ def _side(sites, triangle, a, b, w):
     return 0
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_containing(sites, triangles, w):
     count = 0
     for i in range(1, len(triangles)):
@@ -116,7 +116,7 @@ def _count_containing(sites, triangles, w):
     return count
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _count_facing(sites, triangle, hull, w):
     count = 0
     for i in range(len(hull)):

@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numba
 import numpy as np
 
+from .._kernel_cache import cached_njit
 from ..predicates import work_array
 from ..predicates.borrowed import borrowed
 from . import batch, circumcircle, optimistic
@@ -59,12 +59,12 @@ class Simulation:
     triangles: int
 
 
-@numba.njit(cache=True)
+@cached_njit
 def _counted(state, k):
     return state[k, VISITED], state[k, FLIPS], state[k, INSERTED], state[k, TESTS]
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _step(
     points, nodes, shared, state, sites,
     pool, notes, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
@@ -83,7 +83,7 @@ def _step(
     return optimistic.step(points, nodes, shared, state, sites, held[k], cavity[k], rim[k], k, w)
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _simulate(
     points,
     nodes,
@@ -168,7 +168,7 @@ def _simulate(
     return last, busy
 
 
-@numba.njit(nogil=True, cache=True)
+@cached_njit(nogil=True)
 def _simulate_critical(points, nodes, shared, state, sites, elements, costs, w):
     """The pessimistic method, and with one element the sequential one: as long as an element is in the
     critical section, others that come to it wait; one thread on each element."""

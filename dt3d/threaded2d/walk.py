@@ -6,15 +6,14 @@ again by whoever has exclusive access to it.
 
 from __future__ import annotations
 
-import numba
-
+from .._kernel_cache import cached_njit
 from ..predicates.filtered2d import orient2d
 from .atomics import load_acquire
 from .geometry import side
 from .store import CHILD, INFINITE, NEIGHBOR
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def walk(points, nodes, t, q, w):
     """In place: the triangle that contains site q, or a ghost whose edge it is beyond; and the steps from t
     on."""
@@ -41,7 +40,7 @@ def walk(points, nodes, t, q, w):
         steps += 1
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def _right_of(points, nodes, a, b, q, w):
     """Whether q lies to the right of the edge ab, one of whose ends may be infinite: of a ray from the
     centre."""
@@ -50,7 +49,7 @@ def _right_of(points, nodes, a, b, q, w):
     return side(points, nodes, a, b, q, w) < 0
 
 
-@numba.njit(cache=True, forceinline=True)
+@cached_njit(forceinline=True)
 def walk_history(points, nodes, t, q, w):
     """With a history: the leaf that contains q, and the steps from t on.
 

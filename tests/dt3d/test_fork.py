@@ -15,7 +15,7 @@ import numpy as np
 import dt3d, scanvec as sv
 from dt3d import predicates, threaded2d
 
-PATIENCE = 60
+PATIENCE = 240
 points = np.random.default_rng(0).random((30, 3))
 
 def on_jax():
