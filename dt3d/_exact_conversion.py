@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 WHOLE = 2**53  # integers up to this are float64 numbers, all of them
+FLOAT64 = np.dtype(np.float64)  # in the byte order of this machine
 GREATEST = "at most 1.8e308"
 
 CURES = {
@@ -44,6 +45,8 @@ def to_float64(array: Any, what: str = "points", whole: str | None = None) -> np
         exactly; the message names its row, its column and the value.
     """
     given = _as_array(array)
+    if given.dtype == FLOAT64:
+        return given
     kind = given.dtype.kind
     if kind == "O":
         return _from_objects(given, what, whole or what)
@@ -53,7 +56,7 @@ def to_float64(array: Any, what: str = "points", whole: str | None = None) -> np
         raise ValueError(msg)
     with np.errstate(all="ignore"):
         converted = given.astype(np.float64, copy=False)
-    if given.dtype.itemsize >= 8 and given.size and given.dtype != np.float64:
+    if given.dtype.itemsize >= 8 and given.size and kind + str(given.dtype.itemsize) != "f8":
         _compare(given, converted, what, whole or what)
     return converted
 

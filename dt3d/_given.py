@@ -100,10 +100,11 @@ def _unmasked(given: np.ma.MaskedArray, name: str) -> np.ndarray:
     mask = np.ma.getmaskarray(given)
     if given.dtype.names:
         cure = f"{name}[[not any(row) for row in np.ma.getmaskarray({name})]]"
-        masked = sum(any(row) for row in mask.ravel())
+        rows: list[Any] = mask.ravel().tolist()
+        masked = sum(any(row) for row in rows)
     else:
         cure = f"{name}[~np.ma.getmaskarray({name}).any(axis=-1)]"
-        masked = np.count_nonzero(mask.any(axis=-1)) if mask.ndim else int(mask)
+        masked = int(mask.any(axis=-1).sum())
     if masked:
         msg = f"{name} are a masked array, and {masked} rows are masked in places; drop these: pass {cure}"
         raise ValueError(msg)

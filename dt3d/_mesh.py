@@ -39,10 +39,16 @@ def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
         If PyVista is not installed.
     """
     pv = import_pyvista()
-    grid = pv.UnstructuredGrid({pv.CellType.TETRA: tri.simplices}, np.asarray(tri.points, np.float64))
-    grid.cell_data["iteration"] = np.asarray(tri.iteration, np.int32)
+    # copies, since VTK writes where an array is read-only, too
+    grid = pv.UnstructuredGrid({pv.CellType.TETRA: tri.simplices}, np.array(tri.points, np.float64))
+    grid.cell_data["iteration"] = np.array(tri.iteration, np.int32)
     grid.cell_data["volume"] = volumes(tri.points, tri.simplices)
     return grid
+
+
+def surface(tri: Any) -> np.ndarray:
+    """The facets of the hull, int (h, 3); of a part of a triangulation, those of its boundary."""
+    return tri.boundary if hasattr(tri, "boundary") else tri.convex_hull
 
 
 def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
@@ -56,8 +62,7 @@ def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
         If PyVista is not installed.
     """
     pv = import_pyvista()
-    facets = tri.boundary if hasattr(tri, "boundary") else tri.convex_hull
-    corners, faces = np.unique(facets, return_inverse=True)
+    corners, faces = np.unique(surface(tri), return_inverse=True)
     points = np.asarray(tri.points, np.float64)[corners]
     return pv.PolyData.from_regular_faces(points, faces.reshape(-1, 3))
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ._mesh import to_pyvista, volumes
+from ._mesh import surface, to_pyvista, volumes
 from ._paths import by_extension, check_writable, import_meshio, written_aside
 
 
@@ -134,7 +134,7 @@ def _write_stl(tri: Any, path: Path) -> None:
 
 def _hull(tri: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """The convex hull as a closed surface of its own points, oriented outwards."""
-    corners, faces = np.unique(tri.convex_hull, return_inverse=True)
+    corners, faces = np.unique(surface(tri), return_inverse=True)
     return np.asarray(tri.points, np.float64)[corners], {"triangle": faces.reshape(-1, 3).astype(np.int32)}
 
 

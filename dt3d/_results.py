@@ -12,6 +12,7 @@ import numpy as np
 
 from ._topology import OUTSIDE
 
+Names = tuple[str, ...]
 SIMPLICES = ("simplices", "triangles", "neighbors", "iteration", "thread", "convex_hull")
 
 
@@ -22,21 +23,24 @@ def frozen(array: np.ndarray) -> np.ndarray:
     """
     if not array.flags.writeable and isinstance(array.base, memoryview) and array.flags.c_contiguous:
         return array
-    return np.asarray(memoryview(np.ascontiguousarray(array)).toreadonly())
+    buffer: Any = np.ascontiguousarray(array)
+    return np.asarray(memoryview(buffer).toreadonly())
 
 
 class Result:
     """A base of triangulations: read-only arrays and attributes, and pickles that are checked."""
 
-    _arrays: ClassVar[tuple[str, ...]] = ()
+    _arrays: ClassVar[Names] = ()
     """Names of the arrays that a pickle has to have."""
-    _others: ClassVar[tuple[str, ...]] = ()
+    _others: ClassVar[Names] = ()
     """Names of what it has to have beside them."""
-    _derived: ClassVar[tuple[str, ...]] = ()
+    _derived: ClassVar[Names] = ()
     """Names of what is computed when first asked for, and is in no pickle."""
 
     def _keep(self, **results: Any) -> None:
         """Set results, once they are what they will be; arrays become read-only."""
+        for name in self._derived:  # of other results, if there were any
+            self.__dict__.pop(name, None)
         for name, value in results.items():
             self.__dict__[name] = frozen(value) if isinstance(value, np.ndarray) else value
 

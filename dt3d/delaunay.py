@@ -24,7 +24,7 @@ from ._input import (
     first_copies,
     word_of,
 )
-from ._results import Result, check_array, check_complex, check_range, frozen
+from ._results import Names, Result, check_array, check_complex, check_range, frozen
 from ._stats import InsertionStatistics, Progress, Statistics
 from .extrapolation import normalise, perturb
 from .extrapolation import triangulate as extrapolate
@@ -130,10 +130,11 @@ class Delaunay(Result):
     """A site that was not used, and the equal site that was, int32 (k, 2)."""
     stats: Statistics | InsertionStatistics
     """Counts and times."""
+    _exact: bool
 
-    _arrays: ClassVar = ("points", "simplices", "neighbors", "iteration", "duplicates")
-    _others: ClassVar = ("stats", "_exact")
-    _derived: ClassVar = ("convex_hull", "vertex_neighbor_vertices", "_locator")
+    _arrays: ClassVar[Names] = ("points", "simplices", "neighbors", "iteration", "duplicates")
+    _others: ClassVar[Names] = ("stats", "_exact")
+    _derived: ClassVar[Names] = ("convex_hull", "vertex_neighbor_vertices", "_locator")
 
     def __init__(
         self,

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _topology
 from ._input import check_queries
-from ._results import Result, frozen
+from ._results import Names, Result, frozen
 from ._topology import OUTSIDE
 
 if TYPE_CHECKING:
@@ -48,9 +48,9 @@ class Subset(Result):
     duplicates: np.ndarray
     """Those of the whole, int32 (., 2)."""
 
-    _arrays: ClassVar = ("kept", "points", "simplices", "neighbors", "iteration", "duplicates")
-    _others: ClassVar = ("whole",)
-    _derived: ClassVar = ("boundary", "_number")
+    _arrays: ClassVar[Names] = ("kept", "points", "simplices", "neighbors", "iteration", "duplicates")
+    _others: ClassVar[Names] = ("whole",)
+    _derived: ClassVar[Names] = ("boundary", "_number")
 
     def __init__(self, whole: Any, keep: Any) -> None:
         kept = check_keep(keep, len(whole.simplices))

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._compiling import announce_compilation
 from .._input import check_points, check_seed, exactly_scaled, word_of
-from .._results import Result, check_array, check_complex, check_range
+from .._results import Names, Result, check_array, check_complex, check_range
 from .plan import LOCATIONS, METHODS, ORDERS, Options, triangulate
 from .statistics import Statistics
 from .subdivision import SUBDIVISIONS
@@ -106,9 +106,9 @@ class Delaunay(Result):
     stats: Statistics
     """Counts and times."""
 
-    _arrays: ClassVar = ("points", "triangles", "neighbors", "thread", "inserted_by", "duplicates")
-    _others: ClassVar = ("stats",)
-    _derived: ClassVar = ("simplices", "convex_hull", "_locator")
+    _arrays: ClassVar[Names] = ("points", "triangles", "neighbors", "thread", "inserted_by", "duplicates")
+    _others: ClassVar[Names] = ("stats",)
+    _derived: ClassVar[Names] = ("simplices", "convex_hull", "_locator")
 
     def __init__(
         self,

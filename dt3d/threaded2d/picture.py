@@ -29,8 +29,9 @@ def to_pyvista(tri: Any, heights: Any = None) -> pyvista.PolyData:
     pv = import_pyvista()
     z = np.zeros(len(tri.points)) if heights is None else np.asarray(heights, np.float64)
     mesh = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
-    mesh.cell_data["thread"] = tri.thread
-    mesh.point_data["inserted_by"] = tri.inserted_by
+    # copies, since VTK writes where an array is read-only, too
+    mesh.cell_data["thread"] = tri.thread.copy()
+    mesh.point_data["inserted_by"] = tri.inserted_by.copy()
     return mesh
 
 

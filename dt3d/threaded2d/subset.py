@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from .. import subset as in_space
-from .._results import frozen
+from .._results import Names, frozen
 
 if TYPE_CHECKING:
     import pyvista
@@ -26,8 +26,10 @@ class Subset(in_space.Subset):
     inserted_by: np.ndarray
     """That of the whole, int16 (n,)."""
 
-    _arrays: ClassVar = ("kept", "points", "simplices", "neighbors", "thread", "inserted_by", "duplicates")
-    _derived: ClassVar = ("triangles", "boundary", "_number")
+    _arrays: ClassVar[Names] = (
+        "kept", "points", "simplices", "neighbors", "thread", "inserted_by", "duplicates"
+    )  # fmt: skip
+    _derived: ClassVar[Names] = ("triangles", "boundary", "_number")
 
     @staticmethod
     def _carried(whole: Any, kept: np.ndarray) -> dict[str, np.ndarray]:

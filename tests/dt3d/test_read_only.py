@@ -249,3 +249,12 @@ def outcomes():
 )
 def test_changed_results_end_in_an_error_or_right_answers_but_not_in_a_crash(outcomes, attempt, outcome):
     assert outcomes[attempt] == outcome
+
+
+def test_an_object_that_is_made_anew_forgets_what_was_derived():
+    tri = triangulation("space")
+    tri.find_simplex(POINTS)
+    hull = tri.convex_hull
+    tri.__init__(POINTS + 5)
+    assert (tri.find_simplex(POINTS + 5) >= 0).all()
+    assert len(hull) == len(tri.convex_hull)

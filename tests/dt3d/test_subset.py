@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -163,6 +164,31 @@ def test_a_part_is_read_only_and_pickles(name):
     for other in (part, pickle.loads(pickle.dumps(part)), copy.copy(part), copy.deepcopy(part)):
         np.testing.assert_array_equal(other.kept, [3, 1, 4])
         np.testing.assert_array_equal(other.find_simplex(middles), [0, 1, 2])
+
+
+def test_a_part_is_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    from dt3d.plot import draw
+
+    draw(make(SITES["random"]).subset(np.arange(50)), tmp_path / "part.png")
+    assert (tmp_path / "part.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("name", ["random", "random in the plane"])
+@pytest.mark.parametrize("part", [False, True])
+def test_a_mesh_of_pyvista_shares_nothing_that_can_be_written(name, part):
+    pytest.importorskip("pyvista")
+    tri = make(SITES[name])
+    tri = tri.subset(np.arange(50)) if part else tri
+    names = [n for n in type(tri)._arrays if n != "duplicates"]
+    before = {n: getattr(tri, n).copy() for n in names}
+    mesh = tri.to_pyvista()
+    cells = mesh.cells if hasattr(mesh, "cells") else mesh.faces
+    for array in (mesh.points, cells, *mesh.cell_data.values(), *mesh.point_data.values()):
+        with suppress(ValueError):  # where it is read-only
+            array[:] = 77
+    for n in names:
+        np.testing.assert_array_equal(getattr(tri, n), before[n])
 
 
 def test_queries_of_a_part_are_checked():
