@@ -152,17 +152,17 @@ def nap():
     _sleep(np.uint32(_NAP))
 
 
-PATIENCE = 64
+TURNS = 64
 
 
 @cached_njit
 def wait_a_little(turn):
-    """Give way; from the `PATIENCE`-th turn in a row on, sleep for some 30 microseconds each time.
+    """Give way; from the `TURNS`-th turn in a row on, sleep for some 30 microseconds each time.
 
     Short waits end while a thread gives way. In long ones, of several threads for one, giving way takes more
     time from the thread that is waited for than the wait is worth.
     """
-    if turn < PATIENCE:
+    if turn < TURNS:
         give_way()
     else:
         nap()
@@ -170,9 +170,13 @@ def wait_a_little(turn):
 
 @cached_njit
 def acquire(words, at, me):
-    """Take the lock words[at], which is 0 when free; ``me`` is not 0."""
-    while not compare_and_swap(words, at, 0, me):
+    """Take the lock words[at], which is 0 when free; ``me`` is not 0. Whether it was free in one of `TURNS`
+    turns: who waits longer has to look whether all have to stop."""
+    for _ in range(TURNS):
+        if compare_and_swap(words, at, 0, me):
+            return True
         give_way()
+    return False
 
 
 @cached_njit

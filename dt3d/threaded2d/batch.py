@@ -17,10 +17,11 @@ from .atomics import cycles
 from .dag import descend
 from .flips import insert
 from .hands import AT_ONCE, locate_one, prepare
+from .patience import NAP, STEP, strive
 from .prefetch import prefetch
 from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
 from .share import borrowed_sites
-from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, pause, verdict
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, LOOKS, WAITING, pause, verdict
 from .store import (
     AT,
     CHANGE_CYCLES,
@@ -100,11 +101,12 @@ def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, 
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, cells, w = borrowed_sites(sites), borrowed(cells), borrowed(w)
     lanes, hands = borrowed(lanes), borrowed(hands)
-    waiting = 0
+    waiting, effort = 0, 0
     begun = cycles()
     while True:
         did = search_step(points, nodes, shared, state, sites, cells, lanes, hands, me, walking, helping, w)
         waiting, begun = pause(state, me, LOCATION_CYCLES, did, waiting, begun)
+        effort = strive(shared, state, me, effort, STEP if waiting <= LOOKS else NAP)
         reason = DONE if did == FINISHED else verdict(shared, True, True)
         if reason != GO_ON:
             state[me, LOCATION_CYCLES] += cycles() - begun
@@ -117,7 +119,7 @@ def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     cells, hands, w = borrowed(cells), borrowed(hands), borrowed(w)
-    waiting = 0
+    waiting, effort = 0, 0
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)
@@ -125,6 +127,7 @@ def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
             return reason
         did = specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
         waiting, begun = pause(state, me, CHANGE_CYCLES, did, waiting, begun)
+        effort = strive(shared, state, me, effort, STEP if waiting <= LOOKS else NAP)
         if did == FINISHED:
             state[me, CHANGE_CYCLES] += cycles() - begun
             return DONE

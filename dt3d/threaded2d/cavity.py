@@ -7,6 +7,7 @@ around them in order (A. Bowyer 1981, D. F. Watson 1981).
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import compare_and_swap, load, store_release
 from .geometry import conflicts
@@ -51,6 +52,13 @@ def claim(points, nodes, t, q, lock, held, cavity, rim, w):
     -------
     size of the cavity, edges of the rim, how many are held; the size is `BUSY` where another thread has one
     of them, or t is not in conflict any more.
+
+    Raises
+    ------
+    InternalError
+        Where the walk meets more than len(cavity) / 2 triangles, of which there is room for the walk: k
+        conflicts leave no more than k + 2 edges to be crossed and k + 2 around them. ``cavity`` and ``held``
+        have four words and more a site, ``rim`` twelve; there are less than two triangles a site.
     """
     count = 0
     if lock != 0:
@@ -82,6 +90,9 @@ def claim(points, nodes, t, q, lock, held, cavity, rim, w):
         if in_conflict(points, nodes, u, q, w):
             cavity[size] = u
             size += 1
+            if 2 * size + 6 > len(cavity):
+                msg = "the conflicts of a site in a 2D triangulation have no end"
+                raise InternalError(msg)
             top -= 2
             cavity[top] = 4 * u + following
             cavity[top + 1] = 4 * u + previous

@@ -15,13 +15,15 @@ swaps. The paper makes up for those in the end. Here all threads pause as soon a
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from ..predicates.filtered2d import orient2d
-from .atomics import cycles, load, load_acquire, wait_a_little
+from .atomics import TURNS, cycles, load, load_acquire, wait_a_little
 from .dag import descend
 from .flips import flip, illegal, subdivide
 from .hands import AT_ONCE, locate_one, prepare
+from .patience import GIVING_WAY, NAP, STEP, strive
 from .pool import (
     BEGIN,
     EXCEPTIONAL,
@@ -185,13 +187,17 @@ def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
         state[me, GIVEN_UP] += 1
         state[me, SUSPECT] = 1
     else:
-        while not illegal(points, nodes, f, w):
+        # the star is this thread's own, and goes round
+        for _ in range(len(nodes)):
+            if illegal(points, nodes, f, w):
+                return _try_flip(points, nodes, shared, state, pool, me, f, w)
             if nodes[f, 2] == state[me, LAST]:
                 break
             f = _edge(nodes, f, 1) >> 2
             state[me, NODE] = f
         else:
-            return _try_flip(points, nodes, shared, state, pool, me, f, w)
+            msg = "a star of a 2D triangulation does not close"
+            raise InternalError(msg)
     if state[me, SUSPECT] != 0:
         note_star(nodes, shared, state, notes, me, f, state[me, SITE])
         state[me, SUSPECT] = 0
@@ -237,12 +243,13 @@ def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alon
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, pool, w = borrowed_sites(sites), borrowed(pool), borrowed(w)
     notes, lanes, hands = borrowed(notes), borrowed(lanes), borrowed(hands)
-    waiting = 0
+    waiting, effort = 0, 0
     while me > 0 and load(state, (0, INSERTED)) < alone:
         reason = verdict(shared, True, True)
         if reason != GO_ON:
             return reason
         wait_a_little(waiting)
+        effort = strive(shared, state, me, effort, GIVING_WAY if waiting < TURNS else NAP)
         waiting += 1
     waiting = 0
     begun = cycles()
@@ -263,7 +270,10 @@ def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alon
         if did == WAITING:
             state[me, WAITS] += waiting == 0
             wait_a_little(waiting)
+            effort = strive(shared, state, me, effort, GIVING_WAY if waiting < TURNS else NAP)
             waiting += 1
         else:
+            # it may find again and again that what it looked at has changed
+            effort = strive(shared, state, me, effort, STEP)
             waiting = 0
         stumble(shared, state, me)

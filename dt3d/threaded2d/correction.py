@@ -11,6 +11,7 @@ from functools import partial
 
 import numpy as np
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .cavity import in_conflict
@@ -46,7 +47,7 @@ def _flip_illegal(points, nodes, shared, state, edges, w):
     """Flip those of ``edges`` that are illegal, and what gets illegal thereby, until there are none, or there
     is no room for more triangles, or all threads have to stop; how many flips, and the edges that are left.
 
-    There may be quadratically many.
+    There may be quadratically many; in one call no more than there is room for their triangles.
     """
     points, nodes, shared = borrowed(points), borrowed(nodes), borrowed(shared)
     state, w = borrowed(state), borrowed(w)
@@ -76,7 +77,15 @@ def correct(store: Store, origins: np.ndarray, work: np.ndarray, stop: Callable[
     before; how many flips.
 
     ``work`` is the array of the predicates; ``stop`` sets the store's `STOP`.
+
+    Raises
+    ------
+    InternalError
+        After more flips than there are pairs of vertices, that at infinity included: a flip lowers the
+        triangulation when it is lifted to the paraboloid, so that an edge that is gone does not come back.
     """
+    vertices = len(store.points) + 1
+    most = vertices * (vertices - 1) // 2
     used = int(store.shared[USED, 0])
     scratch = np.zeros(used, np.bool_), np.empty(used, np.int32), np.empty(used, np.int32)
     count = leaves_below(store.nodes, origins, *scratch)
@@ -86,6 +95,9 @@ def correct(store: Store, origins: np.ndarray, work: np.ndarray, stop: Callable[
         task = partial(_flip_illegal, store.points, store.nodes, store.shared, store.state, edges, work)
         ((more, edges),) = together([task], stop)
         flips += more
+        if flips > most:
+            msg = "the correction of a 2D triangulation does not end"
+            raise InternalError(msg)
         if len(edges):
             store.grow()
     return flips

@@ -1,11 +1,13 @@
 """Location in the history: from a root to the leaf that contains a site (Kohout et al. 2004, section 3.1).
 
 Nothing is locked. A node's vertices never change, and its children are written before the word that names
-them.
+them. A node is visited once, since the history has no circles; so a location that has visited more nodes than
+there are is in a structure that is broken.
 """
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .geometry import root_of, side
@@ -36,6 +38,9 @@ def descend(points, nodes, t, q, w):
             return t, visited
         t = child_of(points, nodes, t, child, q, w)
         visited += 1
+        if visited > len(nodes):
+            msg = "the history of a 2D triangulation goes round in circles"
+            raise InternalError(msg)
 
 
 @cached_njit(forceinline=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import store_release
 from .geometry import conflicts
@@ -77,13 +78,18 @@ def insert(points, nodes, shared, state, me, t, p, lock, w):
 
     Returns one of the star's triangles. All that is changed must be this thread's own for as long as it
     takes.
+
+    Each turn adds a neighbour to p or goes on to the next one. There are no more of them than sites, with the
+    vertex at infinity in place of p. The store's reserve has room for as many flips.
     """
     f = subdivide(nodes, shared, state, me, t, p, lock)
     last = nodes[f, 1]  # the edge from p to this vertex is never flipped
-    while True:
+    for _ in range(2 * len(points) + 8):
         if illegal(points, nodes, f, w):
             f = flip(nodes, shared, state, me, f, 0, lock)
         elif nodes[f, 2] == last:
             return f
         else:
             f = nodes[f, NEIGHBOR + 1] >> 2
+    msg = "the legalisation of a site in a 2D triangulation does not end"
+    raise InternalError(msg)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .dag import child_of
@@ -67,5 +68,8 @@ def advance(points, nodes, lanes, w):
             visited += 1
             if _look_ahead(nodes, lanes, i, t):
                 return i, visited
+            if visited > LANES * len(nodes):  # each lane visits a node once (`dag`)
+                msg = "the history of a 2D triangulation goes round in circles"
+                raise InternalError(msg)
         if not busy:
             return EMPTY, visited

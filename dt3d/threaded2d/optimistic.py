@@ -8,12 +8,14 @@ holds anything.
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
-from .atomics import cycles, store_release, wait_a_little
+from .atomics import TURNS, cycles, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
 from .dag import descend, locate
 from .flips import insert
+from .patience import GIVING_WAY, NAP, strive
 from .share import borrowed_sites, next_site
 from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, spend, verdict
 from .store import (
@@ -43,13 +45,15 @@ BEGIN, CLAIM, CHANGE = range(3)
 def _unlock_star(nodes, f):
     """Unlock the star triangles about the first vertex of f, which this thread made locked."""
     last = nodes[f, 1]
-    while True:
+    for _ in range(len(nodes)):  # more than any star has
         following = nodes[f, NEIGHBOR + 1] >> 2
         ends = nodes[f, 2] == last
         store_release(nodes, (f, LOCK), 0)
         if ends:
             return
         f = following
+    msg = "a star of a 2D triangulation does not close"
+    raise InternalError(msg)
 
 
 @cached_njit(forceinline=True)
@@ -92,7 +96,7 @@ def run(points, nodes, shared, state, sites, me, scratch, w):
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, w = borrowed_sites(sites), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
-    waiting = 0
+    waiting, effort = 0, 0
     begun = cycles()
     while True:
         # whoever holds triangles goes on until it has given them back
@@ -107,6 +111,7 @@ def run(points, nodes, shared, state, sites, me, scratch, w):
         begun = spend(state, me, column, begun)
         if did == WAITING:
             wait_a_little(waiting)
+            effort = strive(shared, state, me, effort, GIVING_WAY if waiting < TURNS else NAP)
             waiting += 1
             begun = spend(state, me, WAIT_CYCLES, begun)
         else:

@@ -8,6 +8,7 @@ from ..predicates.borrowed import borrowed
 from .atomics import compare_and_swap, cycles, give_way, load, release
 from .dag import descend
 from .flips import insert
+from .patience import GIVING_WAY, strive
 from .share import borrowed_sites, next_site
 from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
 from .store import (
@@ -31,6 +32,7 @@ def run(points, nodes, shared, state, sites, me, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
     points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
     sites, w = borrowed_sites(sites), borrowed(w)
+    effort = 0
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)
@@ -48,6 +50,7 @@ def run(points, nodes, shared, state, sites, me, walking, w):
                 if load(shared, (STOP, 0)) != 0:
                     return STOPPED
                 give_way()
+                effort = strive(shared, state, me, effort, GIVING_WAY)
         begun = spend(state, me, WAIT_CYCLES, begun)
         # what was a leaf before may have children now
         if walking:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .._errors import InternalError
 from .._memory import require
 from ..predicates import work_array
 from . import batch, circumcircle, optimistic, pessimistic, sequential, star, steps
@@ -149,6 +150,10 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     seconds["correction"] = run.correcting
 
     begun = time.perf_counter()
+    inserted = int(store.state[:, INSERTED].sum())
+    if inserted != len(order):
+        msg = f"method {options.method!r} has inserted {inserted} of {len(order)} sites in the plane"
+        raise InternalError(msg)
     used = capacity if capacity is not None else int(store.shared[USED, 0])
     triangles, neighbors, maker = compact(store.nodes, used, site, busy)
     inserted_by = np.full(len(points), -1, np.int16)
@@ -192,7 +197,10 @@ class Run:
         self.store.shared[STOP, 0] = 1
 
     def to_the_end(self) -> None:
-        """Run all threads until all sites are inserted."""
+        """Run all threads until all sites are inserted.
+
+        Each turn has inserted a site at least, or leaves room for half as many nodes again.
+        """
         while True:
             results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
             if steps.FULL in results:

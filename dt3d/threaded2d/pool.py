@@ -132,8 +132,12 @@ def blocker_of(points, nodes, state, pool, me, triangles, count, w):
 @cached_njit(forceinline=True)
 def wait_for(shared, pool, me, i, serial):
     """Enter that ``me`` waits for i, which had finished ``serial`` insertions, to finish one more, unless i
-    waits for ``me`` already; whether it does."""
-    acquire(shared, (CRITICAL, 0), me + 1)
+    waits for ``me`` already; whether it does, or has to try again as others are about to enter the same.
+
+    The waits that are entered make no circle, as each is looked through and entered in the critical section.
+    """
+    if not acquire(shared, (CRITICAL, 0), me + 1):
+        return True
     deadlock = _leads_to(pool, i, me)
     if not deadlock:
         store(pool, (me, WAITS_FOR), serial << THREAD_BITS | i)

@@ -28,7 +28,8 @@ def empty_queue(length: int) -> np.ndarray:
 def _reserve(cells, shared, end, ahead, wanted):
     """Up to ``wanted`` cells at one end of the queue, HEAD or TAIL: the place of the first, and how many.
 
-    A cell is ready when its number is ``ahead`` of its place.
+    A cell is ready when its number is ``ahead`` of its place. Each turn but the first is one in which other
+    threads have moved this end, which they do as often as there are elements.
     """
     at = load(shared, (end, 0))
     while True:

@@ -6,10 +6,12 @@ the order, so that threads need not ask each other for memory.
 
 from __future__ import annotations
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
-from .atomics import load, store_release, wait_a_little
+from .atomics import TURNS, load, store_release, wait_a_little
 from .cavity import BUSY, claim, give_back
+from .patience import NAP, STEP, strive
 from .share import borrowed_sites, take
 from .steps import DONE, STOPPED
 from .store import (
@@ -69,8 +71,9 @@ def run(points, nodes, shared, state, sites, me, lock, scratch, w):
     sites, w = borrowed_sites(sites), borrowed(w)
     held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
     hint, at, end = state[me, HINT], state[me, NEXT], state[me, END]
-    visited = flips = inserted = retries = 0
-    tries, result = 0, DONE
+    visited = flips = retries = 0
+    inserted = state[me, INSERTED]
+    tries, effort, result = 0, 0, DONE
     while True:
         if at == end:
             state[me, NEXT] = at
@@ -83,6 +86,11 @@ def run(points, nodes, shared, state, sites, me, lock, scratch, w):
         q = sites[0][at]
         t, steps = walk(points, nodes, hint, q, w)
         visited += steps
+        if steps > len(nodes):
+            if lock == 0:
+                msg = "a walk through a 2D triangulation goes round in circles"
+                raise InternalError(msg)
+            effort = strive(shared, state, me, effort, steps)
         stumble(shared, state, me)
         size, edges, count = claim(points, nodes, t, q, lock, held, cavity, rim, w)
         if size == BUSY:
@@ -91,10 +99,11 @@ def run(points, nodes, shared, state, sites, me, lock, scratch, w):
             tries += 1
             if tries > AT_ONCE:
                 wait_a_little(tries - AT_ONCE)
+            effort = strive(shared, state, me, effort, STEP if tries < AT_ONCE + TURNS else NAP)
             hint = t
             continue
         stumble(shared, state, me)
-        tries = 0
+        tries = effort = 0
         fresh = ROOTS + 2 * at
         hint = fill(nodes, q, cavity, size, rim, edges, fresh, me, lock)
         if lock != 0:
@@ -103,11 +112,11 @@ def run(points, nodes, shared, state, sites, me, lock, scratch, w):
             store_release(nodes, (fresh + 1, LOCK), 0)
         flips += size - 1
         inserted += 1
+        store_release(state, (me, INSERTED), inserted)  # others look at it while they wait
         at += 1
     state[me, HINT] = hint
     state[me, NEXT] = at
     state[me, VISITED] += visited
     state[me, FLIPS] += flips
-    state[me, INSERTED] += inserted
     state[me, RETRIES] += retries
     return result

@@ -34,8 +34,10 @@ CHILD = 6
 LOCK = 7
 
 # rows of `shared`, one word each
-USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE, OPEN = range(8)
-SHARED_ROWS = 8
+USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE, OPEN, MOST_LOOKS = range(9)
+SHARED_ROWS = 9
+
+PATIENCE = 2048  # looks of a thread that waits, see `patience`
 
 BLOCK = 512  # nodes that a thread takes at a time
 
@@ -48,8 +50,8 @@ NODES_PER_SITE = 12
     PHASE, SITE, NODE, LAST, AT, IN_HAND, HELPED,
     INSERTED, VISITED, FLIPS, TESTS, ACCESSES, WAITS, GIVEN_UP, EXCEPTIONS, RETRIES,
     LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL, HELD,
-    SUSPECT, NOTED,
-) = range(30)  # fmt: skip
+    SUSPECT, NOTED, SEEN, LOOKED,
+) = range(32)  # fmt: skip
 STATE_COLUMNS = 32
 
 
@@ -104,7 +106,7 @@ class Store:
     nodes : int32 (capacity, 8)
     state : int64 (threads, 32)
         Each thread writes to its own row.
-    shared : int64 (8, 16)
+    shared : int64 (9, 16)
         Words that all write to.
     capacity : int, optional
         Of `nodes`, where it is known; with a history it is not, and grows.
@@ -125,6 +127,7 @@ class Store:
         self.shared = padded(SHARED_ROWS)
         self.shared[USED, 0] = ROOTS
         self.shared[SOFT_LIMIT, 0] = soft
+        self.shared[MOST_LOOKS, 0] = PATIENCE
         self.growths = 0
 
     def grow(self) -> None:

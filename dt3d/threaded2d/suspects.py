@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .atomics import store as atomic_store
@@ -43,21 +44,28 @@ def note_star(nodes, shared, state, notes, me, t, q):
 
     No other thread may be about to change them.
     """
-    child = load_acquire(nodes, (t, CHILD))
+    child, down = load_acquire(nodes, (t, CHILD)), 0
     while child >= 0:
         t = child >> 1
-        while _place_of(nodes, t, q) == 3:
-            t += 1
+        # one of two or three children has it as a vertex, and a node is visited once
+        for _ in range(1 + (child & 1)):
+            t += _place_of(nodes, t, q) == 3
+        down += 1
+        if down > len(nodes) or _place_of(nodes, t, q) == 3:
+            msg = "the history of a 2D triangulation has lost a site"
+            raise InternalError(msg)
         child = load_acquire(nodes, (t, CHILD))
     first = t
-    while True:
+    for _ in range(len(nodes)):
         if state[me, NOTED] < len(notes):
             notes[state[me, NOTED]] = t
         state[me, NOTED] += 1
         t = load_acquire(nodes, (t, NEIGHBOR + (_place_of(nodes, t, q) + 1) % 3)) >> 2
         if t == first:
-            break
-    atomic_store(shared, (OPEN, 0), 1)
+            atomic_store(shared, (OPEN, 0), 1)
+            return
+    msg = "a star of a 2D triangulation does not close"
+    raise InternalError(msg)
 
 
 def noted(store: Store, notes: np.ndarray) -> np.ndarray:

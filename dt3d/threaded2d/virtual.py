@@ -26,6 +26,7 @@ from .dag import locate
 from .flips import insert
 from .hands import empty_hands
 from .lanes import empty_lanes
+from .patience import STEP, strive
 from .plan import Options
 from .pool import empty_pool
 from .queue import empty_queue
@@ -119,8 +120,9 @@ def _simulate(
         # the specialised thread of the batch method, which is the last, comes first
         ready[tail] = threads - 1 - k
         tail += 1
-    alive, busy, last = threads, 0.0, 0.0
+    alive, busy, last, effort = threads, 0.0, 0.0, 0
     while alive > 0:
+        effort = strive(shared, state, 0, effort, STEP)
         e = 0
         for i in range(1, elements):
             if clock[i] < clock[e]:

@@ -19,7 +19,8 @@ from .families import uniform
 @numba.njit(nogil=True)
 def _count(words, rounds, me):
     for _ in range(rounds):
-        atomics.acquire(words, (0, 0), me)
+        while not atomics.acquire(words, (0, 0), me):
+            pass
         words[1, 0] += 1  # not atomic: the lock has to do it
         atomics.release(words, (0, 0))
         atomics.add(words, (2, 0), 2)
