@@ -237,3 +237,13 @@ def test_covers_are_refused_however_they_branch(d, sheets):
 def test_meshes_that_were_taken_for_triangulations(name, shared_folder):
     with np.load(shared_folder.parent / "cases" / f"{name}.npz") as mesh:
         assert not verify(mesh["points"], mesh["simplices"])
+
+
+@pytest.mark.parametrize("exponent", [-1040, -500, 500, 1020])
+def test_the_answer_does_not_depend_on_a_power_of_two(exponent):
+    points = np.round(round_an_axis(5, 1, 0.5)[0] * 8)  # few digits, so that subnormal numbers hold them
+    for step, right in ((1, True), (2, False)):
+        rows = round_an_axis(5, step, 0.5)[1]
+        assert bool(verify(np.ldexp(points, exponent), rows)) == right
+        rim = np.ldexp(np.concatenate([[[0, 0]], points[2:, :2]]), exponent)
+        assert bool(verify2d(rim, star_polygon(5, step))) == right
