@@ -60,7 +60,8 @@ class Adapter:
         else:
             sites = points
         tri = dt3d.Delaunay(sites, method=method)
-        self.points, self.simplices, self.neighbors = tri.points, tri.simplices, tri.neighbors
+        # a copy, since SciPy's tests sort it in place
+        self.points, self.simplices, self.neighbors = tri.points, tri.simplices.copy(), tri.neighbors
         self.convex_hull, self.duplicates = tri.convex_hull, tri.duplicates
         if plane:
             apex = len(points)
