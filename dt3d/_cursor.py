@@ -118,7 +118,7 @@ def numbers(words: Sequence[bytes], whole: bool, what: str) -> np.ndarray:
 
 def _check_infinity(words: Sequence[bytes], array: np.ndarray, what: str) -> None:
     """Raise a ValueError for a number that is too great for float64; infinity itself may be written."""
-    for k in np.flatnonzero(np.isinf(array)):
+    for k in np.flatnonzero(np.isinf(array)).tolist():
         if b"n" not in words[k].lower():
             msg = f"{what} have {words[k][:40].decode()}, which is too great for float64 (at most 1.8e308)"
             raise ValueError(msg)
