@@ -102,12 +102,26 @@ def numbers(words: Sequence[bytes], whole: bool, what: str) -> np.ndarray:
     try:
         # Python takes 1_000 for a number, and no format does
         if not any(b"_" in word for word in words):
-            return np.array([kind(word) for word in words], np.int64 if whole else np.float64)
-    except (ValueError, OverflowError):
+            array = np.array([kind(word) for word in words], np.int64 if whole else np.float64)
+            if not whole and np.isinf(array).any():
+                _check_infinity(words, array, what)
+            return array
+    except OverflowError:
         pass
+    except ValueError as error:
+        if str(error).startswith(what):
+            raise
     wrong = next(word for word in words if not _is_number(word, kind))
     msg = f"{what} have {wrong[:40].decode('utf-8', 'replace')!r}, which is no {'whole ' * whole}number"
     raise ValueError(msg)
+
+
+def _check_infinity(words: Sequence[bytes], array: np.ndarray, what: str) -> None:
+    """Raise a ValueError for a number that is too great for float64; infinity itself may be written."""
+    for k in np.flatnonzero(np.isinf(array)).tolist():
+        if b"n" not in words[k].lower():
+            msg = f"{what} have {words[k][:40].decode()}, which is too great for float64 (at most 1.8e308)"
+            raise ValueError(msg)
 
 
 def _is_number(word: bytes, kind: type) -> bool:

@@ -321,3 +321,11 @@ def test_negative_counts(tmp_path):
     start = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"
     (tmp_path / "a.msh").write_text(f"{start}1 -5 1 1\n3 1 0 -5\n$EndNodes\n")
     refused(tmp_path / "a.msh", r"numbers of nodes are \[1, -5\]")
+
+
+def test_a_number_beyond_float64_is_not_infinity(tmp_path):
+    start = "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 1 double\n"
+    (tmp_path / "a.vtk").write_text(start + "0 -1e999 0\n")
+    refused(tmp_path / "a.vtk", "points have -1e999, which is too great for float64")
+    (tmp_path / "a.vtk").write_text(start + "0 -inf 0\n")  # written as such, it is kept for the triangulation
+    assert read_points(tmp_path / "a.vtk").tolist() == [[0.0, -np.inf, 0.0]]
