@@ -167,9 +167,7 @@ def test_coordinates_of_all_magnitudes_survive_obj(tmp_path):
 def test_the_advice_for_sites_on_a_plane_of_space(columns):
     flat = np.full((len(POINTS), 3), 7.0)
     flat[:, columns] = POINTS
-    advice = re.escape(
-        "in the plane dt3d.threaded2d.Delaunay(points[:, :2]) triangulates, with x and y, or the two"
-    )
+    advice = re.escape("dt3d.threaded2d.Delaunay: of points[:, :2], or of other two columns")
     with pytest.raises(dt3d.DegenerateInputError, match=advice) as caught:
         dt3d.Delaunay(flat)
     assert caught.value.dimension == 2
