@@ -21,10 +21,10 @@ NODES = {
 """Nodes of an element, by Gmsh's type."""
 
 VTK_TYPES = {
-    4: 10, 5: 12, 6: 13, 7: 14, 11: 24, 12: 29, 13: 26, 14: 27, 17: 25, 18: 26, 19: 27,
+    2: 5, 4: 10, 5: 12, 6: 13, 7: 14, 11: 24, 12: 29, 13: 26, 14: 27, 17: 25, 18: 26, 19: 27,
     29: 71, 30: 71, 31: 71, 92: 29, 93: 29,
 }  # fmt: skip
-"""VTK's type of elements that fill space, by Gmsh's."""
+"""VTK's type of triangles and of elements that fill space, by Gmsh's."""
 
 
 def read_gmsh_points(path: Path) -> np.ndarray:
@@ -38,8 +38,9 @@ def read_gmsh(path: Path) -> dict[str, np.ndarray]:
     Returns
     -------
     dict
-        "points" (n, 3); "types" (m,), VTK's for what fills space and 0 for all others; "offsets" (m + 1,);
-        "connectivity", in which nodes are numbered by their order in the file rather than by their tags.
+        "points" (n, 3); "types" (m,), VTK's for triangles and what fills space, and 0 for all others;
+        "offsets" (m + 1,); "connectivity", in which nodes are numbered by their order in the file rather than
+        by their tags.
 
     Raises
     ------

@@ -161,7 +161,10 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
         f"that came {where} (dimension {dimension})"
     )
     if dimension == 2:
-        msg += "; for points in the plane, given by two coordinates, there is dt3d.threaded2d.Delaunay"
+        msg += (
+            "; for points in the plane, given by two coordinates, there is dt3d.threaded2d.Delaunay: of "
+            "points[:, :2], or of other two columns where these are on a line"
+        )
     return DegenerateInputError(msg, dimension)
 
 

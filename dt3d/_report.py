@@ -63,6 +63,38 @@ def stats_table(tri: Any, title: str) -> Table:
     return table
 
 
+def plane_table(tri: Any, title: str) -> Table:
+    """The counts and times of a triangulation in the plane.
+
+    Parameters
+    ----------
+    tri : threaded2d.Delaunay
+    title : str
+
+    Returns
+    -------
+    rich.table.Table
+    """
+    stats = tri.stats
+    table = Table(title=Text(title), show_header=False, title_justify="left")
+    table.add_column("what")
+    table.add_column("value", justify="right")
+    table.add_row("sites", f"{len(tri.points):,}")
+    table.add_row("duplicates", f"{len(tri.duplicates):,}")
+    table.add_row("triangles", f"{len(tri.triangles):,}")
+    table.add_row("edges of the hull", f"{len(tri.convex_hull):,}")
+    table.add_section()
+    table.add_row("method", stats.method)
+    table.add_row("threads", f"{stats.threads}")
+    table.add_row("triangles visited per site", _ratio(stats.visited, len(tri.points)))
+    table.add_row("edges flipped per site", _ratio(stats.flips, len(tri.points)))
+    table.add_section()
+    for phase, seconds in stats.seconds.items():
+        style = "bold" if phase == "total" else None
+        table.add_row(f"seconds: {phase}", f"{seconds:.3f}", style=style)
+    return table
+
+
 def _add_extrapolation(table: Table, stats: Statistics, tetrahedra: int) -> None:
     table.add_row("iterations", f"{stats.iterations:,}")
     table.add_row("found in each", "\n".join(f"{found:,}" for found in stats.tetrahedra_per_iteration))

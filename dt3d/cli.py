@@ -22,8 +22,10 @@ from rich.markup import escape
 import dt3d
 
 from ._paths import check_apart, check_writable
-from ._report import Growth, ledger_table, stats_table
+from ._report import Growth, ledger_table, plane_table, stats_table
 from ._status import NOT_DELAUNAY, Printer, Verdict, one_line, run
+
+SPACE_METHODS = ("insertion", "extrapolation")
 
 app = cyclopts.App(
     name="dt3d",
@@ -102,7 +104,17 @@ def triangulate(
     source: Path,
     *,
     output: Annotated[Path, Parameter(alias="-o")],
-    method: Literal["auto", "insertion", "extrapolation"] = "auto",
+    method: Literal[
+        "auto",
+        "insertion",
+        "extrapolation",
+        "sequential",
+        "batch",
+        "circumcircle",
+        "pessimistic",
+        "optimistic",
+    ] = "auto",
+    dimension: Literal[2, 3] | None = None,
     robustness: Literal["exact", "perturb"] = "exact",
     machine: Literal["device", "simulated"] | None = None,
     processors: int | None = None,
@@ -112,7 +124,7 @@ def triangulate(
     picture: Path | None = None,
     force: bool = False,
 ) -> None:
-    """Triangulate the points of a file.
+    """Triangulate the points of a file: in space, or in the plane where they have two coordinates.
 
     Parameters
     ----------
@@ -120,10 +132,14 @@ def triangulate(
         Points: .npy .npz .csv .tsv .txt .dat .asc .pts .xyz .pdb .cif .mmcif .dump .lammpstrj .obj .off .node
         .ply .pcd .las .laz .stl .vtk .vtu .vtp .vti .vts .vtr .vtm .msh .mesh, and each of them with .gz
     output
-        The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull.
+        The mesh: .vtu .vtk .npz .msh .mesh hold the tetrahedra, .ply .stl the surface of the hull. In the
+        plane all of them, .vtp and .obj hold the triangles.
     method
         Insertion on this CPU, which is fast, or the paper's data-parallel extrapolation, which a machine or
-        "perturb" asks for. Both find the same tetrahedra.
+        "perturb" asks for. Both find the same tetrahedra. In the plane: sequential, batch, circumcircle,
+        pessimistic or optimistic, which find the same triangles.
+    dimension
+        2: in the plane, by x and y. 3: in space. If left out, as many coordinates as the points have.
     robustness
         Exact decisions, or the paper's perturbation and its count of inconsistencies.
     machine
@@ -136,17 +152,31 @@ def triangulate(
     dtype
         Precision of the perturbed search.
     seed
-        Seed of the perturbation.
+        Seed of the perturbation, and of the order of insertion in the plane.
     picture
         Also draw a picture: .png .pdf .svg .jpg
     force
         Let the mesh replace the very file that the points are read from. Other files are replaced anyway.
     """
+    from ._mesh_plane import WRITERS as PLANE_WRITERS
+    from ._mesh_plane import check_plane_path
     from .files import check_mesh_path, read_points, write_mesh
     from .plot import check_picture_path, draw
 
     # what cannot end well does not start
-    check_mesh_path(output)
+    in_space = {
+        "method": method if method in SPACE_METHODS else None,
+        "robustness": None if robustness == "exact" else robustness,
+        "machine": machine,
+        "processors": processors,
+        "dtype": dtype,
+    }
+    only_in_space = [f"--{name} {value}" for name, value in in_space.items() if value is not None]
+    only_in_plane = method not in ("auto", *SPACE_METHODS)
+    if dimension == 2 or only_in_plane:
+        check_plane_path(output)
+    elif dimension == 3 or only_in_space or output.suffix.lower() not in PLANE_WRITERS:
+        check_mesh_path(output)
     if picture is not None:
         check_picture_path(picture)
         check_apart(picture, output)
@@ -156,8 +186,27 @@ def triangulate(
     on = _machine(machine, processors)
 
     console = Printer(highlight=False)
-    points = read_points(source)
+    points = read_points(source, dimension=dimension)
+    if points.shape[1] == 2 and only_in_space:
+        what = (
+            "--dimension 2 asks"
+            if dimension == 2
+            else f"{one_line(source)} has two coordinates a point, which asks"
+        )
+        msg = f"{what} for a triangulation in the plane, and {only_in_space[0]} goes with points in space"
+        raise ValueError(msg)
+    if points.shape[1] == 3 and only_in_plane:
+        msg = (
+            f"--method {method} goes with points in the plane, and {one_line(source)} has three "
+            "coordinates a point; say --dimension 2 to triangulate by x and y"
+        )
+        raise ValueError(msg)
     _print(console, f"{len(points):,} points from {source}")
+    if points.shape[1] == 2:
+        check_plane_path(output)
+        _triangulate_plane(console, points, source, output, picture, method, threads, seed)
+        return
+    check_mesh_path(output)
     tri = _triangulate(
         console,
         points,
@@ -181,18 +230,27 @@ def triangulate(
 def verify(file: Path) -> None:
     """Prove with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
 
-    Prints a sentence for each invariant; the exit status is 1 if one is broken. Orientation breaks none.
+    Where a mesh has no tetrahedra, and triangles in the plane z = 0, those are proved. Prints a sentence for
+    each invariant; the exit status is 1 if one is broken. Orientation breaks none.
 
     Parameters
     ----------
     file
         A mesh of tetrahedra of either orientation: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
     """
+    from ._mesh_plane import read_plane_mesh
     from .files import read_mesh
-    from .verification import verify as check
 
-    mesh = read_mesh(file)
-    outcome = check(mesh.points, mesh.simplices)
+    outcome: Any
+    if (plane := read_plane_mesh(file)) is not None:
+        from .threaded2d import verify as check_plane
+
+        outcome = check_plane(plane.points, plane.triangles)
+    else:
+        from .verification import verify as check
+
+        mesh = read_mesh(file)
+        outcome = check(mesh.points, mesh.simplices)
     verdict = "a Delaunay triangulation" if outcome else "NOT a Delaunay triangulation"
     console = Printer(highlight=False)
     console.print(str(outcome), markup=False, soft_wrap=True)
@@ -345,6 +403,28 @@ def _triangulate(console: Console, points: Any, **options: Any) -> Any:
     left = "sites left" if inserts and options["method"] != "extrapolation" else "open faces"
     with console.status("triangulating (the first iteration includes compilation)"):
         return dt3d.Delaunay(points, callback=Growth(console, left), **options)
+
+
+def _triangulate_plane(
+    console: Console,
+    points: Any,
+    source: Path,
+    output: Path,
+    picture: Path | None,
+    method: Any,
+    threads: int | None,
+    seed: int,
+) -> None:
+    from . import threaded2d
+    from ._mesh_plane import draw_plane, write_plane_mesh
+
+    with console.status("triangulating in the plane (the first time includes compilation)"):
+        tri = threaded2d.Delaunay(points, method=method, threads=threads, seed=seed)
+    console.print(plane_table(tri, one_line(source)))
+    write_plane_mesh(tri, output)
+    if picture is not None:
+        draw_plane(tri, picture)
+    _print(console, f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
 
 
 def _machine(machine: str | None, processors: int | None) -> Any:

@@ -6,6 +6,8 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from .._memory import room_for_threads
+
 LOOK = 0.05  # seconds between two looks of the main thread, which a thread that ends or a signal wakes
 
 
@@ -40,7 +42,8 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     started: list[threading.Event] = []
     try:
         for k in range(len(tasks)):
-            start(threading.Thread(target=run, args=(k,), daemon=True), k, len(tasks))
+            with room_for_threads():
+                threading.Thread(target=run, args=(k,), daemon=True).start()
             started.append(ended[k])
         for event in started:
             while not event.wait(LOOK):
@@ -53,20 +56,6 @@ def together(tasks: Sequence[Callable[[], Any]], stop: Callable[[], None]) -> li
     if failures:
         raise failures[0]
     return results
-
-
-def start(thread: threading.Thread, k: int, threads: int) -> None:
-    """Start the k-th of so many threads, or raise a MemoryError: Python has a RuntimeError for that."""
-    try:
-        thread.start()
-    except RuntimeError as error:
-        if "start new thread" not in str(error):
-            raise
-        msg = (
-            f"thread {k + 1} of {threads} could not be started: there is no memory for its stack, or no more "
-            f"threads are allowed; use fewer threads, or raise the limits (ulimit -v, -u)"
-        )
-        raise MemoryError(msg) from error
 
 
 def briefly(tasks: Sequence[Callable[[], Any]]) -> None:

@@ -126,7 +126,12 @@ STUCK = [
 ]
 
 
-@pytest.mark.parametrize("name", STUCK)
+IMPATIENT = ("optimistic walk", "batch dag without searching", "circumcircle dag")
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in IMPATIENT else pytest.param(name, marks=pytest.mark.slow) for name in STUCK]
+)
 def test_a_wait_that_nobody_ends(name):
     run, tasks = _stuck(name)
     _raises_and_leaves_no_thread(lambda: together(tasks, run.stop), "wait for each other")
@@ -211,6 +216,7 @@ def test_a_legalisation_that_does_not_end():
     assert store.shared[0, 0] - used < store.reserve
 
 
+@pytest.mark.slow
 def test_a_correction_that_does_not_end(monkeypatch):
     store, _, w = _half(40)
     monkeypatch.setattr(correction, "_flip_illegal", _with(correction._flip_illegal, _illegal=_always_edge))
