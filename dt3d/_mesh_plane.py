@@ -14,18 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from ._columns import as_float64
-from ._compressed import inner, unpacked
-from ._gmsh_files import read_gmsh
-from ._medit_files import read_medit
 from ._mesh import import_pyvista
 from ._mesh_writing import _in_memory, _write_ply, _write_stl
-from ._numpy_files import read_arrays
 from ._output import save_figure
 from ._paths import by_extension, check_file, check_writable, import_meshio, written_aside
-from ._reading import guarded
-from ._vtk_legacy import read_legacy
-from ._vtk_xml import read_xml
+from .reading.columns import as_float64
+from .reading.compressed import inner, unpacked
+from .reading.gmsh import read_gmsh
+from .reading.guarded import guarded
+from .reading.medit import read_medit
+from .reading.npy import read_arrays
+from .reading.vtk_legacy import read_legacy
+from .reading.vtk_xml import read_xml
 
 TRIANGLE = 5
 """VTK's number for this kind of cell; the readers of other formats use VTK's numbers."""

@@ -1,7 +1,6 @@
 """Points from files, and triangulations into and from files, by the file's extension."""
 
-from ._mesh_files import Mesh, read_mesh
 from ._mesh_writing import check_mesh_path, write_mesh
-from ._point_files import read_points
+from .reading import Mesh, read_mesh, read_points
 
 __all__ = ["Mesh", "check_mesh_path", "read_mesh", "read_points", "write_mesh"]

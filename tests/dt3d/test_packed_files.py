@@ -6,8 +6,8 @@ import tempfile
 import numpy as np
 import pytest
 
-from dt3d import _compressed
 from dt3d.files import read_points
+from dt3d.reading import compressed
 
 POINTS = np.array([[0.1, 1 / 3, -2.5], [1e-7, 2.0, 3.0000000001], [-1.0, 0.0, 1e5 / 7], [4.0, 5.0, 6.0]])
 ROWS = "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in POINTS.tolist())
@@ -55,7 +55,7 @@ def test_a_packed_file_whose_checksum_is_wrong_is_an_error(tmp_path):
 
 
 def test_a_few_kilobytes_that_stand_for_gigabytes_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(_compressed, "available_memory", lambda: 10 << 20)
+    monkeypatch.setattr(compressed, "available_memory", lambda: 10 << 20)
     path = pack(tmp_path / "a.csv.gz", bytes(6 << 20))
     with pytest.raises(ValueError, match=r"unpacks to more than the 5\.2 MB that there is room"):
         read_points(path)

@@ -8,8 +8,9 @@ import zipfile
 import numpy as np
 import pytest
 
-from dt3d import _numpy_files, cli
+from dt3d import cli
 from dt3d.files import read_mesh, read_points
+from dt3d.reading import npy
 
 from .good_files import POINTS, ROWS, TETRAHEDRA, gmsh, las, ply, stl, vtk, vtu
 
@@ -82,7 +83,7 @@ def test_an_array_with_a_usual_name_among_others(tmp_path):
 
 def test_an_archive_that_unpacks_to_more_than_memory_is_refused_before(tmp_path, monkeypatch):
     np.savez_compressed(tmp_path / "a.npz", points=np.zeros((100_000, 3)))
-    monkeypatch.setattr(_numpy_files, "available_memory", lambda: 2_000_000)
+    monkeypatch.setattr(npy, "available_memory", lambda: 2_000_000)
     refused(tmp_path / "a.npz", r"array 'points' needs 2\.4 MB of memory; 2\.0 MB are available")
 
 

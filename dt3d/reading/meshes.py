@@ -1,0 +1,202 @@
+"""Triangulations read from files, to look at them and to verify them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .._paths import by_extension, check_file
+from .columns import as_float64
+from .compressed import inner, unpacked
+from .gmsh import read_gmsh
+from .guarded import guarded
+from .medit import read_medit
+from .npy import read_arrays
+from .vtk_legacy import CELL_DATA, read_legacy
+from .vtk_xml import read_xml
+
+TETRAHEDRON = 10
+"""VTK's number for this kind of cell; the readers of other formats use VTK's numbers."""
+
+VOLUMES = {
+    11: "voxels", 12: "hexahedra", 13: "wedges", 14: "pyramids",
+    15: "pentagonal prisms", 16: "hexagonal prisms",
+    24: "quadratic tetrahedra", 25: "quadratic hexahedra", 26: "quadratic wedges", 27: "quadratic pyramids",
+    29: "triquadratic hexahedra", 42: "polyhedra", 71: "Lagrange tetrahedra", 78: "Bezier tetrahedra",
+}  # fmt: skip
+"""Other kinds that fill space: where they are, the tetrahedra alone are not the mesh."""
+
+SURFACES = (".ply", ".stl", ".obj", ".off", ".vtp", ".vti", ".vts", ".vtr")
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Tetrahedra from a file, as `draw` and `to_pyvista` take them.
+
+    Attributes
+    ----------
+    points : float64 (n, 3)
+    simplices : int32 (m, 4)
+        Numbers of points, all of them from 0 to n - 1.
+    iteration : int32 (m,)
+        The iteration that found each tetrahedron; 1 where the file does not say.
+    """
+
+    points: np.ndarray
+    simplices: np.ndarray
+    iteration: np.ndarray
+
+
+def read_mesh(path: str | Path) -> Mesh:
+    """The tetrahedra of a file that `write_mesh` or another program wrote.
+
+    =============== ==========================================================================================
+    .npz            arrays points and simplices, and iteration if there is one
+    .vtu .vtk       an unstructured grid, in text or binary
+    .msh .mesh      of Gmsh (2.2 and 4.1, in text or binary) and Medit (in text)
+    .gz after any   the same, packed by gzip
+    =============== ==========================================================================================
+
+    Triangles, edges and vertices among the cells are not read.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or cannot be read.
+    ValueError
+        If it holds no tetrahedra, or other cells that fill space; for tetrahedra that name points that are
+        not there; for an unknown extension or a file that is damaged. One line that names the file.
+    """
+    path = Path(path)
+    if inner(path).suffix.lower() in SURFACES:
+        msg = f"{check_file(path)} holds no tetrahedra: files of this kind have points or surfaces only"
+        raise ValueError(msg)
+    reader = by_extension(inner(path), MESH_READERS, "read a mesh from")
+    check_file(path)
+
+    def mesh_of(path: Path) -> Mesh:
+        with unpacked(path) as plain:
+            return _mesh(path, guarded(reader, plain, path))
+
+    return guarded(mesh_of, path)
+
+
+def _mesh(path: Path, found: dict[str, np.ndarray]) -> Mesh:
+    """What a reader found, checked: a Mesh whose numbers can be used without another look."""
+    points, simplices = found["points"], found["simplices"]
+    if points.ndim != 2 or points.shape[1] != 3:
+        msg = f"{path}: expected points of shape (n, 3), found {points.shape}"
+        raise ValueError(msg)
+    points = np.ascontiguousarray(as_float64(points, f"{path}: points"))
+    if simplices.ndim != 2 or simplices.shape[1] != 4:
+        msg = f"{path}: expected simplices of shape (m, 4), tetrahedra; found {simplices.shape}"
+        raise ValueError(msg)
+    if not len(simplices):
+        msg = f"{path} holds no tetrahedra"
+        raise ValueError(msg)
+    simplices = _whole(path, "simplices", simplices)
+    if wrong := np.argwhere((simplices < 0) | (simplices >= len(points))).tolist():
+        row, column = wrong[0]
+        msg = (
+            f"{path}: tetrahedron {row} names point {simplices[row, column]}, "
+            f"and there are points 0 to {len(points) - 1} only"
+        )
+        raise ValueError(msg)
+    iteration = found.get("iteration")
+    iteration = np.ones(len(simplices)) if iteration is None else iteration
+    iteration = _whole(path, "iteration", iteration)
+    if iteration.shape != (len(simplices),):
+        msg = f"{path}: expected one iteration a tetrahedron, {len(simplices)}; found shape {iteration.shape}"
+        raise ValueError(msg)
+    if (np.abs(iteration) >= 2**31).any():
+        msg = f"{path}: iterations must be less than 2^31"
+        raise ValueError(msg)
+    return Mesh(points, simplices.astype(np.int32), iteration.astype(np.int32))
+
+
+def _whole(path: Path, what: str, array: np.ndarray) -> np.ndarray:
+    """The array as int64, if all its numbers are whole and fit."""
+    if array.dtype.kind in "iu" and (array.dtype.itemsize < 8 or array.dtype.kind == "i"):
+        return array.astype(np.int64)
+    if array.dtype.kind in "fu":
+        with np.errstate(invalid="ignore"):
+            fits = (array >= -(2.0**62)) & (array <= 2.0**62) & (np.floor(array) == array)
+        if fits.all():
+            return array.astype(np.int64)
+        where = np.argwhere(~fits)[0]
+        msg = f"{path}: {what} should be whole numbers, found {array[tuple(where)]} in row {where[0]}"
+        raise ValueError(msg)
+    msg = f"{path}: {what} should be whole numbers, found {array.dtype}"
+    raise ValueError(msg)
+
+
+def _read_npz(path: Path) -> dict[str, np.ndarray]:
+    found = read_arrays(path, ["points", "simplices", "iteration"])
+    if missing := {"points", "simplices"} - found.keys():
+        msg = f"{path} holds no mesh: there is no array {' and none '.join(sorted(missing))}"
+        raise ValueError(msg)
+    return found
+
+
+def _read_vtk(path: Path) -> dict[str, np.ndarray]:
+    found = (read_legacy if path.suffix.lower() == ".vtk" else read_xml)(path)
+    named = [CELL_DATA + name for name in ("iteration", "medit:ref")]
+    data = next((found[name] for name in named if name in found), None)
+    if "types" not in found or "offsets" not in found:
+        msg = f"{path} holds no tetrahedra: it is no unstructured grid with cells"
+        raise ValueError(msg)
+    if data is not None:
+        found["iteration"] = data
+    return tetrahedra(path, found)
+
+
+def tetrahedra(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The tetrahedra among cells of several kinds.
+
+    Parameters
+    ----------
+    found : dict
+        "points"; "types" (m,), VTK's numbers; "offsets" (m + 1,) into "connectivity"; perhaps "iteration".
+
+    Raises
+    ------
+    ValueError
+        If the arrays contradict each other, there are none, or there are other cells that fill space.
+    """
+    types = found["types"]
+    offsets = _whole(path, "offsets", found["offsets"])
+    sizes = np.diff(offsets)
+    if len(offsets) != len(types) + 1 or offsets[0] != 0 or (sizes < 0).any():
+        msg = f"{path} is damaged: its {len(types)} types of cells do not go with {len(offsets)} offsets"
+        raise ValueError(msg)
+    if offsets[-1] != len(found["connectivity"]):
+        msg = f"{path} is damaged: cells end at {offsets[-1]} of {len(found['connectivity'])} numbers"
+        raise ValueError(msg)
+    chosen = types == TETRAHEDRON
+    others = {kind: VOLUMES[kind] for kind in np.unique(types).tolist() if kind in VOLUMES}
+    if others:
+        names = ", ".join(f"{np.count_nonzero(types == kind)} {name}" for kind, name in others.items())
+        msg = f"{path} holds {names} beside {np.count_nonzero(chosen)} tetrahedra; expected tetrahedra only"
+        raise ValueError(msg)
+    if not chosen.any():
+        msg = f"{path} holds no tetrahedra"
+        raise ValueError(msg)
+    if (sizes[chosen] != 4).any():
+        msg = f"{path} is damaged: a tetrahedron has {sizes[chosen][sizes[chosen] != 4][0]} points"
+        raise ValueError(msg)
+    simplices = found["connectivity"][offsets[:-1][chosen, None] + np.arange(4)]
+    mesh = {"points": found["points"], "simplices": simplices}
+    if (iteration := found.get("iteration")) is not None:
+        mesh["iteration"] = iteration[chosen] if len(iteration) == len(types) else iteration
+    return mesh
+
+
+MESH_READERS: dict[str, Callable[[Path], dict[str, np.ndarray]]] = {
+    ".npz": _read_npz,
+    **dict.fromkeys([".vtu", ".vtk"], _read_vtk),
+    ".msh": lambda path: tetrahedra(path, read_gmsh(path)),
+    ".mesh": lambda path: tetrahedra(path, read_medit(path)),
+}
