@@ -139,7 +139,7 @@ def _kept(case: Case, outcome: str, what: str, out: Path) -> str:
         size = f"{len(first)} sites ({len(least)} after minimising)"
     else:
         kind, data = corrupted(first, k)
-        np.savez(path, file=first, seed=k, data=np.frombuffer(data, np.uint8))
+        np.savez(path, name=first, seed=k, data=np.frombuffer(data, np.uint8))
         size = f"{kind}, {len(data)} bytes"
     repeat = f"{Path(sys.executable).name} -m tests.fuzz --repeat {path}"
     return f"FAILED: {case.family}, {size}: {what}\n  repeat with: {repeat}"
@@ -163,8 +163,8 @@ def _made_smaller(points: np.ndarray, k: int, outcome: str, what: str) -> np.nda
 def run_again(path: Path) -> list[str]:
     """Try what was saved, in this process."""
     with np.load(path) as saved:
-        if "file" in saved:
-            return file_trial(str(saved["file"]), int(saved["seed"]))
+        if "name" in saved:
+            return file_trial(str(saved["name"]), int(saved["seed"]))
         return trial(saved["points"], int(saved["seed"]))
 
 
