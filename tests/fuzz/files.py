@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
 import io
 import os
 import re
 import resource
 import struct
+import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -226,6 +228,62 @@ def file_trial(name: str, k: int) -> list[str]:
     return [kind, outcome]
 
 
+def command_trial(name: str, k: int) -> list[str]:
+    """The same through the command line: a mesh and status 0, or one line and status 2; never half a mesh.
+
+    Raises
+    ------
+    Refuted
+        If something else happens.
+    """
+    from dt3d.cli import main
+
+    kind, data = corrupted(name, k)
+    with tempfile.TemporaryDirectory() as folder:
+        path, mesh = Path(folder) / name, Path(folder) / "mesh.npz"
+        path.write_bytes(data)
+        mesh.write_bytes(b"an older one")
+        with _printed() as texts:
+            status = main(["triangulate", str(path), "--output", str(mesh)])
+        lines = texts[1].splitlines()
+        if status == 0:
+            require("wrote" in texts[0], "a command that is done says what it wrote")
+            require(read_points(mesh, dimension=None).size > 0, "the mesh is whole")
+        else:
+            require(status == 2, f"bad files have status 2, not {status}: {lines}")
+            require(len(lines) == 1, f"an error is one line: {lines}")
+            # what is wrong with points that could be read is said of the points
+            require(name in lines[0] or "points from" in texts[0], f"it names the file: {lines}")
+            require(mesh.read_bytes() == b"an older one", "an older file stays as it was")
+        if path.suffix in MESHES:
+            with _printed() as texts:
+                proved = main(["verify", str(path)])
+            lines = texts[1].splitlines()
+            require(proved in (0, 1) or (proved == 2 and len(lines) == 1), f"verify: {proved}, {lines}")
+    return [kind, "read" if status == 0 else "refused"]
+
+
+@contextlib.contextmanager
+def _printed() -> Iterator[list[str]]:
+    """What is printed within, by other languages too: standard output and errors, there when it has ended."""
+    texts: list[str] = []
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        kept = os.dup(1), os.dup(2)
+        os.dup2(out.fileno(), 1)
+        os.dup2(err.fileno(), 2)
+        try:
+            yield texts
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            for descriptor, old in zip((1, 2), kept, strict=True):
+                os.dup2(old, descriptor)
+                os.close(old)
+            for file in (out, err):
+                file.seek(0)
+                texts.append(file.read().decode(errors="replace"))
+
+
 def _points(path: Path) -> np.ndarray:
     return read_points(path, dimension=None)
 
@@ -241,20 +299,12 @@ def _require_prefix(found: np.ndarray, whole: np.ndarray) -> None:
 
 def _read(reader: Callable[[Path], Any], path: Path) -> tuple[str, Any]:
     """("read", what was read) or ("refused", the line), with nothing printed."""
-    with tempfile.TemporaryFile() as printed:
-        kept = os.dup(1), os.dup(2)
-        os.dup2(printed.fileno(), 1)
-        os.dup2(printed.fileno(), 2)
+    with _printed() as texts:
         try:
             outcome: tuple[str, Any] = "read", reader(path)
         except (ValueError, OSError) as error:
             outcome = "refused", str(error)
-        finally:
-            for descriptor, old in zip((1, 2), kept, strict=True):
-                os.dup2(old, descriptor)
-                os.close(old)
-        printed.seek(0)
-        noise = printed.read().decode(errors="replace")
+    noise = "".join(texts)
     require(not noise, f"nothing is printed: {noise[:200]!r}")
     if outcome[0] == "refused":
         require(outcome[1] and "\n" not in outcome[1], f"an error is one line: {outcome[1]!r}")

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from dt3d.files import read_points
 from . import oracle
 from .__main__ import point_sets, run_again
 from .families import ALL, draw
-from .files import CORRUPTIONS, _require_prefix, file_trial, samples, sites
+from .files import CORRUPTIONS, _require_prefix, command_trial, file_trial, samples, sites
 from .minimise import minimise
 from .misbehave import misbehave
 from .worker import Worker
@@ -96,6 +97,23 @@ def test_broken_files_are_points_or_one_line():
                 assert outcome == "done", f"{name}, number {k}: {what}"
     finally:
         worker.end()
+
+
+@pytest.mark.slow
+def test_forty_broken_files_of_every_kind_through_the_command_line():
+    seed = int.from_bytes(os.urandom(4), "little")
+    worker = Worker(command_trial, patience=120.0, warming=[("table.csv", 0)])
+    ended = Counter()
+    try:
+        for name in samples():
+            for k in range(seed, seed + 40):
+                outcome, what = worker.run(name, k)
+                assert outcome == "done", f"{name}, number {k}: {what}"
+                ended[what[1]] += 1
+    finally:
+        worker.end()
+    print(f"{len(samples())} kinds of file: {dict(ended)}")
+    assert ended["refused"] > ended["read"] > 0
 
 
 def right(d):
