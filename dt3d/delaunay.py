@@ -101,6 +101,10 @@ class Delaunay(Result):
         If all sites lie on a plane, a line or a point.
     InconsistencyError
         If the perturbation does not decide enough for the method to finish.
+    MemoryError
+        If the system does not have the memory; says what is needed.
+    InternalError
+        A fault of dt3d, to be reported, in place of a wrong result or an endless loop.
 
     Warns
     -----

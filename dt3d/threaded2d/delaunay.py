@@ -81,6 +81,10 @@ class Delaunay(Result):
         If the points or an option are not what they should be; the message says what came.
     DegenerateInputError
         If the sites coincide or lie on a line.
+    MemoryError
+        If the system does not have the memory; says what is needed.
+    InternalError
+        A fault of dt3d, to be reported, in place of a wrong result or an endless loop.
 
     Examples
     --------
