@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ from dt3d import _status, cli
 from dt3d.bench.worker import _without_interrupts
 from dt3d.files import read_mesh
 
-resource = pytest.importorskip("resource")
+from .disks import small_files
 
 OLD = b"the old file, which somebody may need\n"
 
@@ -322,19 +321,6 @@ def test_terminals_that_lack_signs(tmp_path, monkeypatch, encoding):
 
 
 # files
-
-
-@contextmanager
-def small_files(limit):
-    """A limit to the size of files stands for a full disk."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        signal.signal(signal.SIGXFSZ, ignored)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from dt3d._paths import check_apart, check_writable, written_aside
 from dt3d.files import read_mesh, read_points, write_mesh
 from dt3d.plot import draw
 
-resource = pytest.importorskip("resource")  # of POSIX
+from .disks import small_files
 
 MESHES = [".npz", ".vtu", ".vtk", ".msh", ".mesh", ".ply", ".stl"]
 PICTURES = [".png", ".pdf", ".svg", ".jpg"]
@@ -52,19 +52,6 @@ def save(big, path):
         draw(big, path, width=300, height=250)
     else:
         write_csv(path, ["x", "y", "z"], np.tile(big.points, (4, 1)))
-
-
-@contextmanager
-def small_files(limit):
-    """A limit to the size of files stands for a full disk: writing fails half way (EFBIG for ENOSPC)."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        signal.signal(signal.SIGXFSZ, ignored)
 
 
 @pytest.fixture(params=[*MESHES, *PICTURES, *TABLES])
