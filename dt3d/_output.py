@@ -28,4 +28,5 @@ def save_figure(figure: Any, path: Path, dpi: float | None = None) -> None:
     picture = io.BytesIO()
     figure.savefig(picture, format=path.suffix[1:].lower(), dpi=figure.dpi if dpi is None else dpi)
     with written_aside(path) as aside:
-        aside.write_bytes(picture.getbuffer())
+        # a copy, since a view would outlive an error, and then the buffer complains where nobody hears it
+        aside.write_bytes(picture.getvalue())

@@ -47,10 +47,12 @@ def in_circles(points, rows, labels, mesh, *_):
 
 
 def all_in_conflict(points, rows, labels, mesh, spheres, radii, *_):
+    spheres.reshape(-1, 4)[:, :3] = 9  # the centres; where there is no sphere they were never written
     radii.reshape(-1, 8)[:, 6:] = np.inf
 
 
 def none_in_conflict(points, rows, labels, mesh, spheres, radii, *_):
+    spheres.reshape(-1, 4)[:, :3] = 9
     radii.reshape(-1, 8)[:, 6:] = -1, 0
 
 
