@@ -153,6 +153,7 @@ def test_balance(tmp_path, console):
     assert is_png(tmp_path / "balance.png")
 
 
+@pytest.mark.slow  # small twins: the loads on further machines in tests/scanvec/test_models.py
 def test_machines_reuse_one_run():
     ledgers = run_machines(125, (16, 64, 1024))
     again = measure(points_of("rand.125"), sv.Simulated(64, model=sv.EREW_PRAM)).ledgers[64]
