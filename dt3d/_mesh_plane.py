@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ._mesh import import_pyvista
-from ._mesh_writing import _in_memory, _write_ply, _write_stl
+from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
 from ._output import save_figure
 from ._paths import by_extension, check_file, check_writable, import_meshio, written_aside
 from .reading.columns import as_float64
@@ -23,6 +23,7 @@ from .reading.compressed import inner, unpacked
 from .reading.gmsh import read_gmsh
 from .reading.guarded import guarded
 from .reading.medit import read_medit
+from .reading.meshes import TETRAHEDRON, VOLUMES
 from .reading.npy import read_arrays
 from .reading.vtk_legacy import read_legacy
 from .reading.vtk_xml import read_xml
@@ -30,7 +31,7 @@ from .reading.vtk_xml import read_xml
 TRIANGLE = 5
 """VTK's number for this kind of cell; the readers of other formats use VTK's numbers."""
 
-FILLS_SPACE = (10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 42, 71, 78)
+FILLS_SPACE = [TETRAHEDRON, *VOLUMES]
 
 
 @dataclass(frozen=True)
@@ -171,29 +172,18 @@ def _write_vtu(tri: Any, path: Path) -> None:
     grid = _grid(tri)  # says what to install where VTK is missing
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-    _write_xml(vtkXMLUnstructuredGridWriter(), grid, path)
+    save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
 
 
 def _write_vtp(tri: Any, path: Path) -> None:
     surface = tri.to_pyvista()
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-    _write_xml(vtkXMLPolyDataWriter(), surface, path)
-
-
-def _write_xml(writer: Any, mesh: Any, path: Path) -> None:
-    writer.SetDataModeToBinary()
-    writer.SetCompressorTypeToZLib()
-    path.write_bytes(_in_memory(writer, mesh).GetOutputString().encode())
+    save_xml(vtkXMLPolyDataWriter(), surface, path)
 
 
 def _write_vtk(tri: Any, path: Path) -> None:
-    grid = _grid(tri)
-    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
-
-    writer = vtkUnstructuredGridWriter()
-    writer.SetFileTypeToBinary()
-    path.write_bytes(_in_memory(writer, grid).GetOutputStdString())
+    save_legacy(_grid(tri), path)
 
 
 def _write_gmsh(tri: Any, path: Path) -> None:
@@ -221,8 +211,8 @@ WRITERS: dict[str, Callable[[Any, Path], None]] = {
     ".vtp": _write_vtp,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": lambda tri, path: _write_ply(_surface(tri), path),
-    ".stl": lambda tri, path: _write_stl(_surface(tri), path),
+    ".ply": lambda tri, path: write_ply(_surface(tri), path),
+    ".stl": lambda tri, path: write_stl(_surface(tri), path),
     ".obj": _write_obj,
 }
 

@@ -69,14 +69,22 @@ def _write_vtu(tri: Any, path: Path) -> None:
     grid = to_pyvista(tri)  # says what to install where VTK is missing
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetDataModeToBinary()
-    writer.SetCompressorTypeToZLib()
-    path.write_bytes(_in_memory(writer, grid).GetOutputString().encode())
+    save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
 
 
 def _write_vtk(tri: Any, path: Path) -> None:
-    grid = to_pyvista(tri)  # says what to install where VTK is missing
+    save_legacy(to_pyvista(tri), path)
+
+
+def save_xml(writer: Any, mesh: Any, path: Path) -> None:
+    """A mesh of PyVista by one of VTK's writers of XML."""
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToZLib()
+    path.write_bytes(_in_memory(writer, mesh).GetOutputString().encode())
+
+
+def save_legacy(grid: Any, path: Path) -> None:
+    """An unstructured grid of PyVista in VTK's legacy format."""
     from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 
     writer = vtkUnstructuredGridWriter()
@@ -104,12 +112,12 @@ def _write_medit(tri: Any, path: Path) -> None:
     meshio.medit.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}, cell_data=reference))
 
 
-def _write_ply(tri: Any, path: Path) -> None:
+def write_ply(tri: Any, path: Path) -> None:
     meshio = import_meshio()
     meshio.ply.write(path, meshio.Mesh(*_hull(tri)), binary=True)
 
 
-def _write_stl(tri: Any, path: Path) -> None:
+def write_stl(tri: Any, path: Path) -> None:
     """Binary STL: 80 bytes that say nothing, the number of facets, and 50 bytes for each.
 
     meshio has NumPy write the facets (``tofile``), which overlooks a disk that is full at their end.
@@ -144,6 +152,6 @@ WRITERS: dict[str, Callable[[Any, Path], None]] = {
     ".vtk": _write_vtk,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": _write_ply,
-    ".stl": _write_stl,
+    ".ply": write_ply,
+    ".stl": write_stl,
 }
