@@ -11,15 +11,15 @@ from .predicates.filtered2d import orient2d
 
 
 @cached_njit
-def _on_facet(rows, simplices, t, k, q, w):
-    """Whether q, a row in simplex t, lies on the facet opposite the k-th vertex."""
+def side_of_facet(rows, simplices, t, k, q, w):
+    """Where row q lies of the facet opposite the k-th vertex of t: positive on the side of t, 0 on it."""
     a = q if k == 0 else simplices[t, 0]
     b = q if k == 1 else simplices[t, 1]
     c = q if k == 2 else simplices[t, 2]
     if simplices.shape[1] == 3:
-        return orient2d(rows, a, b, c, w) == 0
+        return orient2d(rows, a, b, c, w)
     d = q if k == 3 else simplices[t, 3]
-    return orient3d(rows, a, b, c, d, w) == 0
+    return orient3d(rows, a, b, c, d, w)
 
 
 @cached_njit(nogil=True)
@@ -42,7 +42,7 @@ def find_beside(rows, simplices, neighbors, kept, q, points, found, out, w):
                 break
             for k in range(simplices.shape[1]):
                 u = neighbors[t, k]
-                if u == OUTSIDE or seen[u] or not _on_facet(rows, simplices, t, k, q, w):
+                if u == OUTSIDE or seen[u] or side_of_facet(rows, simplices, t, k, q, w) != 0:
                     continue
                 if count == len(star):
                     longer = np.empty(2 * count, np.int32)

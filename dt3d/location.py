@@ -20,28 +20,14 @@ from ._input import check_queries
 from ._kernel_cache import cached_njit
 from ._memory import room_for_threads
 from ._results import check_complex, check_range, frozen
-from ._star import find_beside
+from ._star import find_beside, side_of_facet
 from ._topology import OUTSIDE
 from .insertion.order import along_curve
 from .predicates import work_array
-from .predicates.filtered import orient3d
-from .predicates.filtered2d import orient2d
 
 PIECE = 4096  # points that a thread takes at a time
 AT_A_TIME = 2**22  # points that are put in order together
 LOST = -2  # a walk of more steps than there are simplices, which no Delaunay triangulation has
-
-
-@cached_njit
-def _beyond(rows, simplices, t, k, q, w):
-    """Whether q lies strictly beyond the facet of t opposite its k-th vertex."""
-    a = q if k == 0 else simplices[t, 0]
-    b = q if k == 1 else simplices[t, 1]
-    c = q if k == 2 else simplices[t, 2]
-    if simplices.shape[1] == 3:
-        return orient2d(rows, a, b, c, w) < 0
-    d = q if k == 3 else simplices[t, 3]
-    return orient3d(rows, a, b, c, d, w) < 0
 
 
 @cached_njit
@@ -56,7 +42,7 @@ def _walk(rows, simplices, neighbors, t, q, w):
         for i in range(facets):
             k = (i + step) % facets  # another first facet each time
             u = neighbors[t, k]
-            if (u != came or u == OUTSIDE) and _beyond(rows, simplices, t, k, q, w):
+            if (u != came or u == OUTSIDE) and side_of_facet(rows, simplices, t, k, q, w) < 0:
                 if u == OUTSIDE:
                     return OUTSIDE, t
                 ahead = u
@@ -73,7 +59,7 @@ def _search(rows, simplices, q, w):
     for t in range(len(simplices)):
         contained = True
         for k in range(simplices.shape[1]):
-            contained = contained and not _beyond(rows, simplices, t, k, q, w)
+            contained = contained and side_of_facet(rows, simplices, t, k, q, w) >= 0
         if contained:
             return t
     return OUTSIDE
