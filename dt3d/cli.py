@@ -236,7 +236,8 @@ def verify(file: Path) -> None:
     Parameters
     ----------
     file
-        A mesh of tetrahedra of either orientation: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+        A mesh of tetrahedra, or of triangles in the plane, of either orientation: .vtu .vtk .npz .msh .mesh,
+        and each of them with .gz
     """
     from ._mesh_plane import read_plane_mesh
     from .files import read_mesh
@@ -266,7 +267,7 @@ def view(file: Path, *, screenshot: Path | None = None) -> None:
     Parameters
     ----------
     file
-        A mesh that `dt3d triangulate` wrote: .vtu .vtk .npz .msh .mesh, or another that PyVista reads.
+        A mesh of tetrahedra: .vtu .vtk .npz .msh .mesh, and each of them with .gz
     screenshot
         Draw into this file and open no window; works without a screen.
     """
