@@ -10,9 +10,6 @@ from dt3d.files import read_mesh, read_points
 
 from .good_files import FILES, MESHES, POINTS, TETRAHEDRA, corruptions, gzipped, whole
 
-pytest.importorskip("laspy")
-pytest.importorskip("lazrs")
-
 
 def spoiled(tmp_path, name, number):
     """Files to be read, each with the kind of its corruption."""

@@ -288,7 +288,8 @@ def test_masked_queries_with_nothing_masked_are_located():
 
 
 def test_tables_of_pandas():
-    pandas = pytest.importorskip("pandas")
+    import pandas
+
     frame = pandas.DataFrame(POINTS, columns=["x", "y", "z"])
     for given in (frame, frame.astype("Float64"), frame.astype(object)):
         np.testing.assert_array_equal(dt3d.Delaunay(given).points, POINTS)
@@ -314,7 +315,8 @@ def test_tables_of_pandas():
 
 
 def test_a_mesh_of_pyvista():
-    pyvista = pytest.importorskip("pyvista")
+    import pyvista
+
     mesh = pyvista.PolyData(POINTS.astype(np.float32))
     np.testing.assert_array_equal(dt3d.Delaunay(mesh).points, POINTS.astype(np.float32))
     with pytest.raises(ValueError, match=r"without the third coordinate pass points.points\[:, :2\]"):

@@ -215,7 +215,6 @@ def test_an_element_that_names_a_node_that_is_not_there(tmp_path):
 
 
 def test_a_laser_scan_with_other_records_than_promised(tmp_path):
-    pytest.importorskip("laspy")
     las(tmp_path / "a.las")
     data = bytearray((tmp_path / "a.las").read_bytes())
     for name, at, value, sentence in [
