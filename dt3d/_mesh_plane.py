@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from ._mesh import import_pyvista
 from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
+from ._optional import optional
 from ._output import save_figure
-from ._paths import by_extension, check_file, check_writable, import_meshio, written_aside
+from ._paths import by_extension, check_file, check_writable, written_aside
 from .reading.columns import as_float64
 from .reading.compressed import inner, unpacked
 from .reading.gmsh import read_gmsh
@@ -162,7 +162,7 @@ def _write_npz(tri: Any, path: Path) -> None:
 
 
 def _grid(tri: Any) -> Any:
-    pv = import_pyvista()
+    pv = optional("pyvista")
     grid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     grid.cell_data["thread"] = tri.thread
     return grid
@@ -187,12 +187,12 @@ def _write_vtk(tri: Any, path: Path) -> None:
 
 
 def _write_gmsh(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}), "4.1")
 
 
 def _write_medit(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.medit.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}))
 
 
