@@ -25,7 +25,7 @@ def publish(
     figure: Figure,
     dpi: float = 120,
 ) -> None:
-    """Write ``name``.csv and ``name``.png to the folder ``out``, and say so; OSError if they cannot be written."""
+    """Write ``name``.csv and ``name``.png to the folder ``out``, and say so; OSError if that fails."""
     table, picture = written(out, name)
     write_csv(table, header, rows)
     save_figure(figure, picture, dpi)
