@@ -23,7 +23,7 @@ from ._numba.kernel_cache import cached_njit
 from ._results import check_complex, check_range, frozen
 from ._star import find_beside, side_of_facet
 from ._topology import OUTSIDE
-from .insertion.order import along_curve
+from .ordering.along_curve import along_curve_in_space
 from .predicates import work_array
 
 PIECE = 4096  # points that a thread takes at a time
@@ -208,4 +208,4 @@ def _along_curve(points: np.ndarray) -> np.ndarray:
         return np.arange(len(points))
     in_space = np.zeros((len(points), 3))
     in_space[:, : points.shape[1]] = points
-    return along_curve(in_space, lambda work, n: work(0, n))
+    return along_curve_in_space(in_space, lambda work, n: work(0, n))

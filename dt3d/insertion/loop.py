@@ -11,12 +11,14 @@ import numpy as np
 from .._errors import DegenerateInputError
 from .._memory import require, room_for_threads
 from .._numba.cores import available_cores
+from ..ordering.along_curve import along_curve_in_space, bounds, gather
+from ..ordering.brio import insertion_rounds
+from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
 from .crew import LEAST_PIECE, Crew
 from .first import first_tetrahedron
 from .kernel import FRESH, FRESH_END
 from .layout import DEAD, MOST_SLOTS, aligned
-from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
 from .store import LARGEST_BLOCK, SLOT, Store
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
@@ -108,7 +110,7 @@ def triangulate(
 def _in_order(sites: np.ndarray, crew: Crew) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
     int32 (k, 2)."""
-    order = along_curve(sites, crew.in_pieces)
+    order = along_curve_in_space(sites, crew.in_pieces)
     original = order.astype(np.int32)
     rows = aligned(4 * len(order), np.float64)
     crew.in_pieces(lambda i, j: gather(sites, original, rows, i, j), len(order))

@@ -13,6 +13,7 @@ from .._errors import InternalError
 from .._memory import require
 from .._numba.cores import available_cores
 from .._numba.threads import run_threads
+from ..ordering.along_curve import along_curve_in_plane
 from ..predicates import work_array
 from . import batch, circumcircle, optimistic, pessimistic, sequential, steps
 from .compaction import compact
@@ -47,7 +48,6 @@ from .mesh import (
     WAITS,
     Store,
 )
-from .order import along_curve
 from .pool import empty_pool
 from .queue import empty_queue
 from .statistics import Statistics
@@ -89,7 +89,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     begun = time.perf_counter()
     # what never waits gains nothing from more threads than processors
     busy = min(options.threads, available_cores())
-    site, duplicates = along_curve(points, busy)
+    site, duplicates = along_curve_in_plane(points, busy)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .._numba.kernel_cache import cached_njit
-from .order import brio, mixed
+from ..ordering.brio import brio
+from ..ordering.hashing import mixed
 
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from dt3d import threaded2d
+from dt3d.ordering.along_curve import along_curve_in_plane
 from dt3d.predicates import work_array
 from dt3d.threaded2d import illegal_edges, pool
 from dt3d.threaded2d.compaction import compact
@@ -12,7 +13,6 @@ from dt3d.threaded2d.configuration import Options
 from dt3d.threaded2d.correction import _illegal
 from dt3d.threaded2d.driver import Run
 from dt3d.threaded2d.mesh import CHILD, EXCEPTIONS, NEIGHBOR, NOTED, ROOTS, STUMBLE, SUSPECT, USED
-from dt3d.threaded2d.order import along_curve
 from dt3d.threaded2d.virtual_time.costs import prepared
 
 from .families import DISTRIBUTIONS, EVERY_SET, canonical
@@ -151,6 +151,6 @@ def test_where_there_is_no_room_for_notes_everything_is_corrected(monkeypatch):
         run = _run(_Crowded, points, 4, seed)
         full += run.full
         used = int(run.store.shared[USED, 0])
-        rows = along_curve(points)[0]
+        rows = along_curve_in_plane(points)[0]
         np.testing.assert_array_equal(canonical(compact(run.store.nodes, used, np.sort(rows))[0]), want)
     assert full > 0

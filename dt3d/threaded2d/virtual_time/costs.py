@@ -9,6 +9,7 @@ import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.unowned import unowned
+from ...ordering.along_curve import along_curve_in_plane
 from ...predicates import work_array
 from .. import sequential
 from ..configuration import Options
@@ -25,7 +26,6 @@ from ..mesh import (
     VISITED,
     Store,
 )
-from ..order import along_curve
 from ..pool import touches
 from ..steps import now
 from ..work_sharing import Sites, share
@@ -69,7 +69,7 @@ class Costs:
 
 def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
     """The store of a run, with room for all it may need, and its sites."""
-    site, _ = along_curve(points)
+    site, _ = along_curve_in_plane(points)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
