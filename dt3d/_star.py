@@ -6,8 +6,8 @@ import numpy as np
 
 from ._numba.kernel_cache import cached_njit
 from ._topology import OUTSIDE
-from .predicates.filtered import orient3d
-from .predicates.filtered2d import orient2d
+from .predicates.plane import orient2d
+from .predicates.space import orient3d
 
 
 @cached_njit

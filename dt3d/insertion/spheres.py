@@ -38,7 +38,7 @@ import numba
 import numpy as np
 
 from .._numba.kernel_cache import cached_njit
-from ..predicates.filtered import orient3d
+from ..predicates.space import orient3d
 
 U = 2.0**-53
 LEAST = 2.0**-110  # of m^2 and of what becomes a float32, which has its full precision above 2^-126

@@ -19,7 +19,7 @@ from .._errors import InternalError
 from .._numba.atomics import TURNS, cycles, load, load_acquire, wait_a_little
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
-from ..predicates.filtered2d import orient2d
+from ..predicates.plane import orient2d
 from .dag import descend
 from .flips import flip, illegal, subdivide
 from .illegal_edges import note_star

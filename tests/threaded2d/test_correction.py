@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from dt3d.predicates import work_array
-from dt3d.predicates.filtered2d import orient2d
+from dt3d.predicates.plane import orient2d
 from dt3d.threaded2d import correction, dag, sequential
 from dt3d.threaded2d.compaction import compact
 from dt3d.threaded2d.configuration import Options

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._numba.atomics import load_acquire
 from ..._numba.kernel_cache import cached_njit
-from ...predicates.filtered2d import orient2d
+from ...predicates.plane import orient2d
 from ..dag import locate
 from ..geometry import side
 from ..mesh import CHILD, INFINITE, NEIGHBOR

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import scanvec as sv
-from dt3d.predicates import elementwise, in_sphere, orient2d, orient3d, perturbed, perturbed2d, work_array
-from dt3d.predicates.integers import limbs_of
+from dt3d.predicates.traced import in_sphere, one_case, orient2d, orient3d, perturbed, perturbed2d, work_array
+from dt3d.predicates.traced.digits import limbs_of
 
 from .oracle import inside_perturbed
 
@@ -33,7 +33,7 @@ def test_ties_go_as_infinitesimal_heights_do(d, module):
 
 
 def inside(vertices, ranks, site, rank):
-    return elementwise.inside(vertices, ranks, site, rank)
+    return one_case.inside(vertices, ranks, site, rank)
 
 
 def as_points(digits, rows, vector):
@@ -60,7 +60,7 @@ def test_long_arrays_go_in_blocks():
     many = np.concatenate([rows] * 40)  # more than a block, and not a multiple of one
     sites = as_points(limbs_of(points), many, np.asarray)
     with jax.enable_x64(True):
-        got = np.asarray(jax.jit(jax.vmap(elementwise.in_sphere))(*sites))
+        got = np.asarray(jax.jit(jax.vmap(one_case.in_sphere))(*sites))
     want = in_sphere(*(points[rows[:, k]] for k in range(5)))
     np.testing.assert_array_equal(got, np.tile(want, 40))
 
@@ -68,4 +68,4 @@ def test_long_arrays_go_in_blocks():
 def test_64_bits_are_asked_for():
     point = ((1,), (2,))
     with pytest.raises(ValueError, match=r"use `with jax.enable_x64\(True\):`"):
-        elementwise.orient2d(point, point, point)
+        one_case.orient2d(point, point, point)
