@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.Hypercube, sv.Mesh2D, sv.CM2, sv.CM5)
+MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.HYPERCUBE, sv.MESH2D, sv.CM2, sv.CM5)
 PROCESSORS = tuple(2**k for k in range(4, 21, 2))
 
 

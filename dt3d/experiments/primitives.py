@@ -85,12 +85,12 @@ def _make(
 
 CATALOGUE = (
     _make("v + w", "p-+, p-<, ...", lambda x: x.v + x.order, 1),
-    _make("select", "p-select", lambda x: sv.select(x.flags, x.v, x.order), 1),
+    _make("where", "p-select", lambda x: sv.where(x.flags, x.v, x.order), 1),
     _make("map(where=)", "-", lambda x: x.v.machine.map(abs, x.v, where=x.flags, otherwise=0), 1),
     _make("iota", "index", lambda x: x.v.machine.iota(len(x.v)), 1),
     _make("permute", "permute", lambda x: sv.permute(x.v, x.order), 1),
     _make("get", "concurrent read", lambda x: sv.get(x.v, x.order), 1),
-    _make("send", "concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, x.v), 1),
+    _make("send", "concurrent write", lambda x: sv.send(x.v, x.order, sv.ADD, into=x.v), 1),
     _make("scan(ADD)", "+-scan", lambda x: sv.scan(x.v, sv.ADD), 1),
     _make("scan(MAX)", "max-scan", lambda x: sv.scan(x.v, sv.MAX), 1),
     _make("scan(segments)", "seg-+-scan", lambda x: sv.scan(x.v, sv.ADD, x.segments), 1),
