@@ -62,7 +62,7 @@ class _Clock:
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
 
 
-def triangulate(
+def extrapolate(
     machine: sv.Machine,
     sites: np.ndarray,
     exact: bool,
