@@ -37,14 +37,14 @@ class Result:
     _derived: ClassVar[Names] = ()
     """Names of what is computed when first asked for, and is in no pickle."""
 
-    def _keep(self, **results: Any) -> None:
+    def _keep(self, **results: object) -> None:
         """Set results, once they are what they will be; arrays become read-only."""
         for name in self._derived:  # of other results, if there were any
             self.__dict__.pop(name, None)
         for name, value in results.items():
             self.__dict__[name] = frozen(value) if isinstance(value, np.ndarray) else value
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         self._refuse(name, "assigned")
         super().__setattr__(name, value)
 

@@ -20,9 +20,6 @@ from .geometry import conflicts
 
 __all__ = ["Verification", "verify"]
 
-# Row k: the edge opposite the k-th vertex of a positive triangle, which has the triangle on its left.
-OUTWARD = np.array([[1, 2], [2, 0], [0, 1]])
-
 
 def verify(
     points: Any,
@@ -146,7 +143,7 @@ PLANE = Space(
         "ball": "circle",
         "at every ridge": "at every vertex",
     },
-    outward=OUTWARD,
+    outward=_topology.OUTWARD_IN_PLANE,
     orientations=_orientations,
     count_inside=_count_inside,
     count_containing=_count_containing,
