@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .canonical import canonical
+from .exact.canonical import canonical
 
 
 @dataclass
