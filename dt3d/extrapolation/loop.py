@@ -46,7 +46,7 @@ GIVE_UP_COUNT = 100
 BYTES_PER_SITE = 1500  # at least, as measured
 
 
-def triangulate(
+def extrapolate(
     machine: sv.Machine,
     sites: np.ndarray,
     exact: bool,

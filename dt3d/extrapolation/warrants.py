@@ -1,8 +1,8 @@
 """Warrants: a query examines a few sites and keeps the one of least score.
 
 Teng et al. 1993, section 4.2. Three searches of the algorithm (a nearest site, a smallest circumcircle, a
-face expansion) ask for the site of least score near a query. A score may be known up to rounding only, so it is a
-pair of bounds, and a result says whether the bounds leave more than one site.
+face expansion) ask for the site of least score near a query. A score may be known up to rounding only, so it
+is a pair of bounds, and a result says whether the bounds leave more than one site.
 """
 
 from __future__ import annotations

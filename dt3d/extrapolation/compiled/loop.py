@@ -257,10 +257,10 @@ class Triangulation:
             self.order.astype(np.int32)[corners],
             neighbors,
             iteration,
-            self.iteration,
-            self.face_expansions,
-            self.sites_searched,
-            self.exact_decisions,
+            per_iteration=self.iteration,
+            face_expansions=self.face_expansions,
+            sites_searched=self.sites_searched,
+            exact_decisions=self.exact_decisions,
             seconds=self.seconds,
         )
 
