@@ -9,7 +9,7 @@ import numpy as np
 import scanvec as sv
 
 from .._stats import Statistics
-from .canonical import canonical
+from .exact.canonical import canonical
 
 
 @dataclass

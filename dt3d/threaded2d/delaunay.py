@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy.typing as npt
 
-from .._compiling import announce_compilation
 from .._input import check_points, exactly_scaled
+from .._numba.announce import announce_compilation
 from .._options import Location, Order, PlaneMethod, Subdivision, check_plane_options
 from .._results import Names
 from .._triangulation import InPlane, Part, Whole

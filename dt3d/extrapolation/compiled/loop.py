@@ -18,7 +18,7 @@ from ..._errors import InternalError
 from ...predicates.integers import limbs_of
 from ..outcome import Outcome
 from ..points import Point
-from ..search import NO_SITE
+from ..warrants import NO_SITE
 from .expand import AHEAD, FOUND, HULL, TIE, WIDER, Expansion, expand
 from .general import GeneralCode
 from .mesh import (
