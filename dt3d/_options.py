@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-import scanvec as sv
-
 from ._input import check_seed, word_of
 
 if TYPE_CHECKING:
+    import scanvec as sv
+
     from ._stats import Progress
 
 Method = Literal["auto", "insertion", "extrapolation"]
@@ -51,7 +51,7 @@ def check_space_options(
     if robustness not in get_args(Robustness):
         msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
         raise ValueError(msg)
-    if machine is not None and not isinstance(machine, sv.Machine):
+    if machine is not None and not _is_machine(machine):
         msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
         raise ValueError(msg)
     if working == np.float32 and robustness == "exact":
@@ -68,6 +68,12 @@ def check_space_options(
         method = "extrapolation" if only_extrapolation else "insertion"
     _check_threads(threads, method)
     return method, working
+
+
+def _is_machine(machine: object) -> bool:
+    from scanvec import Machine  # and with it JAX, which the plane does not need
+
+    return isinstance(machine, Machine)
 
 
 def _check_threads(threads: int | None, method: str) -> None:
