@@ -128,7 +128,7 @@ class InPlane(Triangulation):
 
         return plot(self, ax, colormap=colormap, edges=edges)
 
-    def __setstate__(self, state: dict[str, Any]) -> None:  # any attribute
+    def __setstate__(self, state: dict[str, object]) -> None:
         """Restore a pickle; in those of version 0.1 the simplices are called triangles."""
         renamed = {"simplices" if name == "triangles" else name: value for name, value in state.items()}
         super().__setstate__(renamed)
@@ -266,7 +266,7 @@ class Whole(Triangulation, Generic[PartT]):
         """The function `verify` of this dimension; it loads numba."""
         raise NotImplementedError
 
-    def _check(self, own: dict[str, Any]) -> None:  # any attribute
+    def _check(self, own: dict[str, np.ndarray]) -> None:
         n, m = len(own["points"]), len(own["simplices"])
         check_complex(own["points"], own["simplices"], own["neighbors"], dimension=self._dimension)
         for names, length in ((self._per_simplex, m), (self._per_site, n)):
@@ -348,7 +348,7 @@ class Part(Triangulation):
         locator = self.whole._locator
         found = locator.find_checked(points)
         found[found < 0] = OUTSIDE
-        out = self._number[found]
+        out: np.ndarray = self._number[found]
         # what contains these is not kept; if they lie on its border, something beside it may be
         rest = np.flatnonzero((out == OUTSIDE) & (found != OUTSIDE))
         if len(rest):

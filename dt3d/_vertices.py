@@ -41,7 +41,8 @@ def neighbors_of_vertices(simplices: np.ndarray, n: int) -> tuple[np.ndarray, np
     least, most = every + 12 * m, corners * every + 4 * m
     require(f"finding the neighbors of {n} vertices", 16 * n + least, 16 * n + most)
     # a tuple, whose length the compiler knows
-    return _neighbors(simplices, n, tuple(range(corners)))
+    indptr, indices = _neighbors(simplices, n, tuple(range(corners)))
+    return indptr, indices
 
 
 @cached_njit

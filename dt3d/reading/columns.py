@@ -15,7 +15,8 @@ def as_float64(array: np.ndarray, what: str) -> np.ndarray:
 
     Parameters
     ----------
-    array : array of numbers
+    array : ndarray
+        Numbers.
     what : str
         The path, and the array's name if it has one.
 

@@ -8,9 +8,8 @@ checked and the theorem that they imply it; here are the exact signs that they n
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
 from .. import _topology
 from .._numba.kernel_cache import cached_njit
@@ -22,11 +21,11 @@ __all__ = ["Verification", "verify"]
 
 
 def verify(
-    points: Any,
-    triangles: Any,
+    points: npt.ArrayLike,
+    triangles: npt.ArrayLike,
     *,
-    neighbors: Any = None,
-    duplicates: Any = None,
+    neighbors: npt.ArrayLike | None = None,
+    duplicates: npt.ArrayLike | None = None,
     perturbed: bool = False,
     oriented: bool = False,
 ) -> Verification:
@@ -40,6 +39,7 @@ def verify(
     Parameters
     ----------
     points : float64 (n, 2)
+        The sites.
     triangles : int (m, 3)
         Of either orientation: those that turn to the right are turned first, which is a remark.
     neighbors : int (m, 3), optional
