@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .._kernel_cache import cached_njit
-from .layout import DEAD
+from .layout import is_finite, neighbor, tetrahedron, vertex
 
 
 @cached_njit(nogil=True)
@@ -13,7 +11,7 @@ def count_finite(mesh, begin, end):
     """How many of the slots begin .. end-1 hold tetrahedra that are not ghosts."""
     m = 0
     for t in range(begin, end):
-        m += max(max(mesh[8 * t], mesh[8 * t + 1]), max(mesh[8 * t + 2], mesh[8 * t + 3])) < DEAD
+        m += is_finite(mesh, t)
     return m
 
 
@@ -21,7 +19,7 @@ def count_finite(mesh, begin, end):
 def number_finite(mesh, begin, end, first, number):
     """Number them from ``first`` on; -1 for the others."""
     for t in range(begin, end):
-        if max(max(mesh[8 * t], mesh[8 * t + 1]), max(mesh[8 * t + 2], mesh[8 * t + 3])) < DEAD:
+        if is_finite(mesh, t):
             number[t] = first
             first += 1
         else:
@@ -36,5 +34,5 @@ def write_finite(mesh, begin, end, number, original, simplices, neighbors):
         s = number[t]
         if s >= 0:
             for k in range(4):
-                simplices[s, k] = original[mesh[8 * t + k]]
-                neighbors[s, k] = number[mesh[8 * t + 4 + k] >> np.uint32(2)]
+                simplices[s, k] = original[vertex(mesh, t, k)]
+                neighbors[s, k] = number[tetrahedron(neighbor(mesh, t, k))]

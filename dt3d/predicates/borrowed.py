@@ -16,15 +16,27 @@ from numba.extending import intrinsic
 
 @intrinsic
 def borrowed(typingctx: Any, array: Any) -> Any:
-    """The same array without an owner; the caller sees to it that the owner outlives it."""
-    if not isinstance(array, types.Array):
-        msg = f"only arrays are borrowed, got {array}"
+    """The same array, or tuple with arrays in it, without an owner; the caller sees to it that the owner
+    outlives it."""
+    if not isinstance(array, types.Array | types.BaseTuple):
+        msg = f"only arrays and tuples of them are borrowed, got {array}"
         raise TypingError(msg)
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        view = context.make_array(array)(context, builder, args[0])
-        view.meminfo = cgutils.get_null_value(view.meminfo.type)
-        view.parent = cgutils.get_null_value(view.parent.type)
-        return view._getvalue()
+        return _without_owner(context, builder, array, args[0])
 
     return array(array), codegen
+
+
+def _without_owner(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    if isinstance(kind, types.BaseTuple):
+        for i, part in enumerate(kind):
+            inner = _without_owner(context, builder, part, builder.extract_value(value, i))
+            value = builder.insert_value(value, inner, i)
+        return value
+    if not isinstance(kind, types.Array):
+        return value
+    view = context.make_array(kind)(context, builder, value)
+    view.meminfo = cgutils.get_null_value(view.meminfo.type)
+    view.parent = cgutils.get_null_value(view.parent.type)
+    return view._getvalue()

@@ -14,36 +14,21 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 import numpy as np
 
 from .._errors import InternalError
-from .kernel import (
-    CREATED,
-    DEFERRED,
-    ENDLESS_WALK,
-    FAULTS,
-    FREE_COUNT,
-    LAST,
-    LENGTH,
-    LOW,
-    NEEDS_SCRATCH,
-    NEEDS_SLOTS,
-    NEXT,
-    STOP,
-    TESTED,
-    WALKED,
-    insert,
-)  # fmt: skip
-from .layout import INFINITE
-from .store import Store, Worker
+from .insert import ENDLESS_WALK, FAULTS, NEEDS_SCRATCH, NEEDS_SLOTS, insert
+from .layout import INFINITE, vertices
+from .mesh import Store
 from .walk import locate
+from .worker import Scale, State, Worker, scratch_for
 
-STRETCH = 2048  # sites that a thread inserts before it looks whether to go on; some milliseconds
-LEAST_PIECE = 1500  # sites of a round that are worth a thread
+SITES_PER_CALL = 2048  # sites that a thread inserts before it looks whether to go on; some milliseconds
+LEAST_SITES_PER_THREAD = 1500  # sites of a round that are worth a thread
 PASSES = 2  # with threads, over what others deferred; one thread does the rest
-PIECE = 1 << 15  # rows of an array that are worth a task
+ROWS_PER_TASK = 1 << 15  # rows of an array that are worth a task
 # doublings of the memory for one site, whose star has fewer tetrahedra than twice the number of sites; there
 # is memory for as many from the beginning
 MOST_GROWTHS = 3
-MARGIN = 8  # facets that have room in the scratch memory, but are not used
-PATIENCE = 0.05  # seconds between two looks at the progress
+SPARE_FACETS = 8  # facets that have room in the scratch memory, but are not used
+SECONDS_BETWEEN_LOOKS = 0.05  # seconds between two looks at the progress
 
 
 def available_cores() -> int:
@@ -53,7 +38,7 @@ def available_cores() -> int:
     return os.cpu_count() or 1
 
 
-class Crew:
+class Team:
     """Threads, each with a `Worker`, that insert into one `Store`.
 
     ``rows``: the sites, float64 (4 n,), see `layout`. ``report(inserted, slots)`` is called in between.
@@ -67,7 +52,7 @@ class Crew:
         self.deferred = 0
         self.inserted = 0
 
-    def __enter__(self) -> Crew:
+    def __enter__(self) -> Team:
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -77,23 +62,22 @@ class Crew:
 
     def in_pieces(self, work: Callable[[int, int], object], n: int) -> None:
         """Call ``work(begin, end)`` for all of range(n), by all threads if it is long."""
-        if self.pool is None or n < 2 * PIECE:
+        if self.pool is None or n < 2 * ROWS_PER_TASK:
             work(0, n)
             return
-        for task in [self.pool.submit(work, i, min(i + PIECE, n)) for i in range(0, n, PIECE)]:
+        for task in [
+            self.pool.submit(work, i, min(i + ROWS_PER_TASK, n)) for i in range(0, n, ROWS_PER_TASK)
+        ]:
             task.result()
 
-    def begin(self, rows: np.ndarray, box: np.ndarray, store: Store, inserted: int) -> None:
+    def begin(self, box: np.ndarray, store: Store, inserted: int) -> None:
         """Get to work on a store that has some sites already; ``box``: the corners of the box of all,
         (2, 3)."""
-        self.rows = rows
-        self.points = rows.reshape(-1, 4)[:, :3]  # without the labels, which are no coordinates
-        self.labels = rows.view(np.uint32)
         # what underflow can do to a determinant; nothing is known of coordinates that are not scaled
         scaled = np.abs(box).max() <= 1
-        self.slack, self.reach = (2.0**-1000, 1.0) if scaled else (np.inf, np.inf)
+        self.scale = Scale(2.0**-1000, 1.0) if scaled else Scale(np.inf, np.inf)
         self.store = store
-        self.n = len(self.points)
+        self.n = len(store.sites) // 4
         self.workers = [Worker(self.n, box) for _ in range(self.threads)]
         self.inserted = inserted
 
@@ -109,7 +93,7 @@ class Crew:
         """
         done = self.inserted + len(pending)
         for turn in range(PASSES):
-            pieces = min(self.threads, len(pending) // LEAST_PIECE)
+            pieces = min(self.threads, len(pending) // LEAST_SITES_PER_THREAD)
             if pieces < 2:
                 break
             pending = self._insert_together(pending, pieces, turn)
@@ -119,13 +103,13 @@ class Crew:
         growths = 0
         while len(pending):
             before = len(pending)
-            worker.claim(pending, 0, self.n)
+            worker.assign(pending, 0, self.n)
             self._insert(worker, lambda: self.report(self._count([worker]), self.slots()))
-            if worker.state[DEFERRED]:
+            if worker.state[State.DEFERRED]:
                 # it owns all sites, and more memory would not help
-                msg = f"a thread that is alone defers {worker.state[DEFERRED]} sites to others"
+                msg = f"a thread that is alone defers {worker.state[State.DEFERRED]} sites to others"
                 raise InternalError(msg)
-            pending = worker.left()
+            pending = worker.left
             self.inserted = done - len(pending)
             growths = growths + 1 if len(pending) == before else 0
             if growths > MOST_GROWTHS:
@@ -143,33 +127,33 @@ class Crew:
         lows = [int(pending[b]) for b in bounds[:-1]]
         if not turn:
             lows[0] = 0
-        start = int(self.workers[0].state[LAST])
+        start = int(self.workers[0].state[State.LAST])
         workers = self.workers[:pieces]
         for i, worker in enumerate(workers):
             todo = pending[bounds[i] : bounds[i + 1]].copy()
-            worker.claim(todo, lows[i], (lows[(i + 1) % pieces] - lows[i]) % self.n)
+            worker.assign(todo, lows[i], (lows[(i + 1) % pieces] - lows[i]) % self.n)
             start = self._start_within(worker, start)
         assert self.pool is not None
         tasks = [self.pool.submit(self._insert, worker) for worker in workers]
         self._watch(tasks, workers)
-        left = [worker.left() for worker in workers]
-        if any(worker.short for worker in workers):
+        left = [worker.left for worker in workers]
+        if any(worker.out_of_slots for worker in workers):
             self.store.grow()
         return np.sort(np.concatenate(left))
 
     def _start_within(self, worker: Worker, start: int) -> int:
         """Let a worker begin at a tetrahedron that it may read, if a few sites have one; where the walk
         ended."""
-        low, length = int(worker.state[LOW]), int(worker.state[LENGTH])
+        low, length = int(worker.state[State.FIRST]), int(worker.state[State.LENGTH])
         for part in (2, 4, 8):
             site = int(worker.todo[len(worker.todo) // part])
-            start = locate(self.points, self.rows, self.store.mesh, start, site, self.slack, worker.work)
+            start = locate(self.store.mesh, start, site, self.scale.slack, worker.work)
             if start < 0:
                 raise InternalError(FAULTS[ENDLESS_WALK])
-            corners = self.store.mesh[8 * start : 8 * start + 4].astype(np.int64)
+            corners = vertices(self.store.mesh)[start].astype(np.int64)
             if ((corners != INFINITE) & ((corners - low) % self.n < length)).any():
                 break
-        worker.state[LAST] = start
+        worker.state[State.LAST] = start
         return start
 
     def _watch(self, tasks: list[Future[None]], workers: list[Worker]) -> None:
@@ -177,7 +161,7 @@ class Crew:
         try:
             running = set(tasks)
             while running:
-                ended, running = wait(running, PATIENCE)
+                ended, running = wait(running, SECONDS_BETWEEN_LOOKS)
                 for task in ended:
                     task.result()
                 if running:
@@ -190,44 +174,32 @@ class Crew:
     def _insert(self, worker: Worker, after_stretch: Callable[[], None] | None = None) -> None:
         """Insert what the worker has to do, until it is done, told to stop, or out of memory."""
         state, store = worker.state, self.store
-        mesh, spheres, radii = store.mesh, store.spheres, store.radii
-        while state[NEXT] < len(worker.todo) and not self.stopped:
-            state[STOP] = min(int(state[NEXT]) + STRETCH, len(worker.todo))
-            short = insert(
-                self.points,
-                self.rows,
-                self.labels,
-                mesh,
-                spheres,
-                radii,
-                worker.todo,
-                state,
-                worker.scratch,
-                self.slack,
-                self.reach,
-                worker.work,
-            )
+        mesh = store.mesh
+        while state[State.NEXT] < len(worker.todo) and not self.stopped:
+            state[State.STOP] = min(int(state[State.NEXT]) + SITES_PER_CALL, len(worker.todo))
+            short = insert(mesh, worker.todo, state, worker.scratch, self.scale, worker.work)
             if short in FAULTS:
                 raise InternalError(FAULTS[short])
             if short == NEEDS_SCRATCH:
-                if worker.facets > 4 * store.capacity + MARGIN:
+                facets = len(worker.scratch.cavity)
+                if facets > 4 * store.capacity + SPARE_FACETS:
                     msg = f"a cavity has more facets than the {store.capacity} tetrahedra"
                     raise InternalError(msg)
-                worker.allocate(4 * worker.facets)
+                worker.scratch = scratch_for(4 * facets)
             elif short == NEEDS_SLOTS and not worker.take_slots(store):
-                worker.short = True
+                worker.out_of_slots = True
                 break
             if after_stretch is not None:
                 after_stretch()
 
     def _count(self, workers: list[Worker]) -> int:
-        return self.inserted + sum(int(w.state[NEXT] - w.state[DEFERRED]) for w in workers)
+        return self.inserted + sum(w.inserted for w in workers)
 
     def slots(self) -> int:
         """How many hold tetrahedra, ghosts included."""
-        return self.store.used - sum(int(w.state[FREE_COUNT]) + w.fresh for w in self.workers)
+        return self.store.used - sum(w.unused for w in self.workers)
 
     def counts(self) -> tuple[int, int, int]:
         """Tetrahedra walked through, tested and created, by all threads."""
         total = np.sum([w.state for w in self.workers], axis=0)
-        return int(total[WALKED]), int(total[TESTED]), int(total[CREATED])
+        return int(total[State.WALKED]), int(total[State.TESTED]), int(total[State.CREATED])

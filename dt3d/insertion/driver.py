@@ -11,19 +11,19 @@ import numpy as np
 from .._errors import DegenerateInputError
 from .._memory import require, room_for_threads
 from .compaction import count_finite, number_finite, write_finite
-from .crew import LEAST_PIECE, Crew, available_cores
 from .first import first_tetrahedron
-from .kernel import FRESH, FRESH_END
-from .layout import DEAD, MOST_SLOTS, aligned
+from .layout import FREE, MOST_SLOTS, aligned, vertices
+from .mesh import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
-from .store import LARGEST_BLOCK, SLOT, Store
+from .team import LEAST_SITES_PER_THREAD, Team, available_cores
+from .worker import State
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
 SLOTS_PER_SITE = 8
 LEAST_SLOTS_PER_SITE = 5  # sites on a sphere have three tetrahedra and two ghosts each
-ROWS = 64  # bytes: a site along the curve, and its places there and in the input
-STRETCH = 100_000  # sites between two reports
-SAMPLE = 1000  # sites among which the first tetrahedron is sought
+BYTES_PER_SITE = 64  # bytes: a site along the curve, and its places there and in the input
+SITES_PER_REPORT = 100_000  # sites between two reports
+FIRST_SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
 
 @dataclass
@@ -60,23 +60,27 @@ def triangulate(
     MemoryError
         If the system has no room for the threads or the tetrahedra.
     """
-    most = max(1, len(sites) // (8 * LEAST_PIECE)) if threads is None else threads
+    most = max(1, len(sites) // (8 * LEAST_SITES_PER_THREAD)) if threads is None else threads
     threads = min(most, available_cores())
-    least, reserved = (ROWS + SLOT * slots for slots in (LEAST_SLOTS_PER_SITE, SLOTS_PER_SITE))
+    least, reserved = (
+        BYTES_PER_SITE + BYTES_PER_SLOT * slots for slots in (LEAST_SLOTS_PER_SITE, SLOTS_PER_SITE)
+    )
     require(f"the triangulation of {len(sites)} sites", least * len(sites), reserved * len(sites))
     n = 0
     reported = 0
 
     def each_stretch(inserted: int, slots: int) -> None:
         nonlocal reported
-        if report is not None and (inserted // STRETCH > reported // STRETCH or inserted == n > reported):
+        if report is not None and (
+            inserted // SITES_PER_REPORT > reported // SITES_PER_REPORT or inserted == n > reported
+        ):
             reported = inserted
             report(n - inserted, slots)
 
     seconds = {}
-    with room_for_threads(), Crew(threads, each_stretch) as crew:
+    with room_for_threads(), Team(threads, each_stretch) as team:
         begun = time.perf_counter()
-        original, rows, duplicates = _in_order(sites, crew)
+        original, rows, duplicates = _in_order(sites, team)
         n = len(original)
         first = _first(rows.reshape(n, 4)[:, :3])
         todo, ends = insertion_rounds(n, seed, first)
@@ -85,45 +89,44 @@ def triangulate(
         begun = time.perf_counter()
         block = min(LARGEST_BLOCK, 64 + n // threads)
         slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
-        store = Store(first, slots, block, LEAST_SLOTS_PER_SITE * n)
-        crew.begin(rows, bounds(sites), store, len(first))
+        store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
+        team.begin(bounds(sites), store, len(first))
         begin = 0
         for end in ends:
-            crew.insert_round(todo[begin:end])
+            team.insert_round(todo[begin:end])
             begin = end
-        each_stretch(n, crew.slots())
+        each_stretch(n, team.slots())
         seconds["insertion"] = time.perf_counter() - begun
 
         begun = time.perf_counter()
-        mesh = store.mesh.reshape(-1, 8)
-        for worker in crew.workers:
-            mesh[worker.state[FRESH] : worker.state[FRESH_END], 0] = DEAD
-        simplices, neighbors = _compact(crew, store, original)
+        for worker in team.workers:
+            vertices(store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
+        simplices, neighbors = _compact(team, store, original)
         seconds["compaction"] = time.perf_counter() - begun
-        walked, tested, created = crew.counts()
-    return Outcome(simplices, neighbors, duplicates, walked, tested, created, threads, crew.deferred, seconds)
+        walked, tested, created = team.counts()
+    return Outcome(simplices, neighbors, duplicates, walked, tested, created, threads, team.deferred, seconds)
 
 
-def _in_order(sites: np.ndarray, crew: Crew) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _in_order(sites: np.ndarray, team: Team) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
     int32 (k, 2)."""
-    order = along_curve(sites, crew.in_pieces)
+    order = along_curve(sites, team.in_pieces)
     original = order.astype(np.int32)
     rows = aligned(4 * len(order), np.float64)
-    crew.in_pieces(lambda i, j: gather(sites, original, rows, i, j), len(order))
+    team.in_pieces(lambda i, j: gather(sites, original, rows, i, j), len(order))
     found = []
-    crew.in_pieces(lambda i, j: found.append(copied(rows, i, j)), len(order))
+    team.in_pieces(lambda i, j: found.append(copied(rows, i, j)), len(order))
     if not any(found):
         return original, rows, np.empty((0, 2), np.int32)
     n, duplicates = separate_copies(sites, order)
     original, rows = order[:n].astype(np.int32), rows[: 4 * n]
-    crew.in_pieces(lambda i, j: gather(sites, original, rows, i, j), n)
+    team.in_pieces(lambda i, j: gather(sites, original, rows, i, j), n)
     return original, rows, duplicates
 
 
 def _first(points: np.ndarray) -> np.ndarray:
     """The first tetrahedron, of a sample of the sites if that spans a volume."""
-    step = len(points) // SAMPLE
+    step = len(points) // FIRST_SAMPLE
     if step > 1:
         try:
             return first_tetrahedron(np.ascontiguousarray(points[::step]), 0) * step
@@ -132,7 +135,7 @@ def _first(points: np.ndarray) -> np.ndarray:
     return first_tetrahedron(np.ascontiguousarray(points), 0)
 
 
-def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _compact(team: Team, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
     require(f"the result of {slots} tetrahedra", 8 * slots)  # their numbers now, and their iterations later
@@ -142,14 +145,14 @@ def _compact(crew: Crew, store: Store, original: np.ndarray) -> tuple[np.ndarray
     def count(begin: int, end: int) -> None:
         pieces[begin] = count_finite(mesh, begin, end)
 
-    crew.in_pieces(count, slots)
+    team.in_pieces(count, slots)
     begins = sorted(pieces)
     total = np.cumsum([0] + [pieces[b] for b in begins])
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
-    crew.in_pieces(lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
+    team.in_pieces(lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
     # the spheres have served; the result takes their memory, which is there and no less
     result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
     simplices, neighbors = result[0], result[1]
-    crew.in_pieces(lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
+    team.in_pieces(lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
     return simplices, neighbors
