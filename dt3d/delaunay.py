@@ -175,7 +175,7 @@ class Delaunay(Result):
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
     ) -> None:
-        from ._compiling import announce_compilation
+        from ._numba.announce import announce_compilation
         from .insertion import triangulate
 
         announce_compilation()

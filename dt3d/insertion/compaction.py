@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .layout import is_finite, neighbor, tetrahedron, vertex
 
 

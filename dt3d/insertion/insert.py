@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import numba
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from .cavity import NO_ROOM, give_up, search
 from .layout import INFINITE, site_at_hand, vertex
 from .ownership import Part
@@ -44,8 +44,8 @@ def insert(mesh, todo, state, scratch, scale, w):
     is short; then nothing is half done: supply it and call again. Or one of `FAULTS`, when the tetrahedra are
     of no more use.
     """
-    mesh, todo, state = borrowed(mesh), borrowed(todo), borrowed(state)
-    scratch, w = borrowed(scratch), borrowed(w)
+    mesh, todo, state = unowned(mesh), unowned(todo), unowned(state)
+    scratch, w = unowned(scratch), unowned(w)
     part = Part(state[State.FIRST], state[State.LENGTH], state[State.SITES])
     free = FreeSlots(state[State.FREE], state[State.FREE_COUNT], state[State.FRESH], state[State.FRESH_END])
     following, stop, deferred = state[State.NEXT], state[State.STOP], state[State.DEFERRED]

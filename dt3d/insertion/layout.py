@@ -29,8 +29,8 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from .._kernel_cache import cached_njit
-from .prefetch import prefetch
+from .._numba.kernel_cache import cached_njit
+from .._numba.prefetch import prefetch
 
 INFINITE = 0xFFFFFFFF
 FREE = 0xFFFFFFFE

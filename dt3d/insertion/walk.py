@@ -3,8 +3,8 @@ Teillaud: Walking in a triangulation, International Journal of Foundations of Co
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from ..predicates.filtered import ORIENT3D_BOUND, orient3d
 from .layout import INFINITE, neighbor, offset, side, site_at_hand, tetrahedron, tetrahedron_of, vertex
 from .ownership import Part, owns, owns_some
@@ -89,6 +89,6 @@ def nearby_start(mesh, v, part):
 def locate(mesh, t, v, slack, w):
     """The tetrahedron that contains site v, or a ghost; for when no thread inserts. -1 if the walk does not
     end."""
-    mesh, w = borrowed(mesh), borrowed(w)
+    mesh, w = unowned(mesh), unowned(w)
     t, found, _ = walk(mesh, t, site_at_hand(mesh, v), Part(0, 1, 1), slack, w)
     return t if found else -1

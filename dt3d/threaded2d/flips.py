@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import store_release
+from .._numba.atomics import store_release
+from .._numba.kernel_cache import cached_njit
 from .geometry import conflicts
-from .store import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
+from .mesh import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
 
 
 @cached_njit(forceinline=True)

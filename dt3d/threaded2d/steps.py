@@ -6,11 +6,11 @@ loop over steps, and so does the scheduler of virtual time.
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from .atomics import cycles, load, nap
+from .._numba.atomics import cycles, load, nap
+from .._numba.kernel_cache import cached_njit
 from .dag import locate
-from .store import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
-from .walk import walk_history
+from .in_place.walk import walk_history
+from .mesh import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
 
 LOOKS = 50  # at the queue before a thread that waits sleeps: about a microsecond
 
