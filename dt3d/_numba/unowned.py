@@ -30,7 +30,9 @@ def unowned(typingctx, array):
     return array(array), codegen
 
 
-def _without_owner(context: BaseContext, builder: ir.IRBuilder, kind: types.Type, value: ir.Value) -> ir.Value:
+def _without_owner(
+    context: BaseContext, builder: ir.IRBuilder, kind: types.Type, value: ir.Value
+) -> ir.Value:
     if isinstance(kind, types.BaseTuple):
         for i, part in enumerate(kind):
             inner = _without_owner(context, builder, part, builder.extract_value(value, i))

@@ -10,7 +10,7 @@ import numba
 
 from .._numba.kernel_cache import cached_njit
 from ..predicates.perturbed import inside, orientation_with
-from .layout import (
+from .mesh import (
     INFINITE,
     mark,
     neighbor,

@@ -5,17 +5,20 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
+import numpy.typing as npt
 
 from .._errors import DegenerateInputError
-from .._memory import require, room_for_threads
+from .._memory import require
+from .._numba.cores import available_cores
 from .compaction import count_finite, number_finite, write_finite
 from .first import first_tetrahedron
-from .layout import FREE, MOST_SLOTS, aligned, vertices
-from .mesh import BYTES_PER_SLOT, LARGEST_BLOCK, Store
+from .mesh import FREE, MOST_SLOTS, aligned, vertices
 from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
-from .team import LEAST_SITES_PER_THREAD, Team, available_cores
+from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
+from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
 from .worker import State
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
@@ -30,9 +33,9 @@ FIRST_SAMPLE = 1000  # sites among which the first tetrahedron is sought
 class Outcome:
     """Vertices are indices of the rows of the sites that `triangulate` was given."""
 
-    simplices: np.ndarray  # int32 (m, 4)
-    neighbors: np.ndarray  # int32 (m, 4)
-    duplicates: np.ndarray  # int32 (k, 2)
+    simplices: npt.NDArray[np.int32]  # (m, 4)
+    neighbors: npt.NDArray[np.int32]  # (m, 4)
+    duplicates: npt.NDArray[np.int32]  # (k, 2)
     walked: int
     tested: int
     created: int
@@ -42,7 +45,7 @@ class Outcome:
 
 
 def triangulate(
-    sites: np.ndarray,
+    sites: npt.NDArray[np.float64],
     seed: int = 0,
     threads: int | None = None,
     report: Callable[[int, int], None] | None = None,
@@ -66,65 +69,78 @@ def triangulate(
         BYTES_PER_SITE + BYTES_PER_SLOT * slots for slots in (LEAST_SLOTS_PER_SITE, SLOTS_PER_SITE)
     )
     require(f"the triangulation of {len(sites)} sites", least * len(sites), reserved * len(sites))
-    n = 0
+    seconds = {}
+    begun = time.perf_counter()
+    original, rows, duplicates = _in_order(sites, threads)
+    n = len(original)
+    first = _first(rows.reshape(n, 4)[:, :3])
+    todo, ends = insertion_rounds(n, seed, first)
+    seconds["order"] = time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    block = min(LARGEST_BLOCK, 64 + n // threads)
+    slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
+    store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
+    tell = _told(report, n)
+    team = Team(threads, store, bounds(sites), tell)
+    for begin, end in zip([0, *ends], ends, strict=False):
+        team.insert_round(todo[begin:end])
+    tell(n, team.slots)
+    seconds["insertion"] = time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    for worker in team.workers:
+        vertices(store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
+    simplices, neighbors = _compact(store, original, threads)
+    seconds["compaction"] = time.perf_counter() - begun
+    return Outcome(
+        simplices,
+        neighbors,
+        duplicates,
+        walked=team.count(State.WALKED),
+        tested=team.count(State.TESTED),
+        created=team.count(State.CREATED),
+        threads=threads,
+        deferred=team.deferred,
+        seconds=seconds,
+    )
+
+
+def _told(report: Callable[[int, int], None] | None, n: int) -> Callable[[int, int], None]:
+    """A function of the sites inserted and the slots that reports every `SITES_PER_REPORT` sites."""
     reported = 0
 
-    def each_stretch(inserted: int, slots: int) -> None:
+    def tell(inserted: int, slots: int) -> None:
         nonlocal reported
-        if report is not None and (
-            inserted // SITES_PER_REPORT > reported // SITES_PER_REPORT or inserted == n > reported
-        ):
+        due = inserted // SITES_PER_REPORT > reported // SITES_PER_REPORT or inserted == n > reported
+        if report is not None and due:
             reported = inserted
             report(n - inserted, slots)
 
-    seconds = {}
-    with room_for_threads(), Team(threads, each_stretch) as team:
-        begun = time.perf_counter()
-        original, rows, duplicates = _in_order(sites, team)
-        n = len(original)
-        first = _first(rows.reshape(n, 4)[:, :3])
-        todo, ends = insertion_rounds(n, seed, first)
-        seconds["order"] = time.perf_counter() - begun
-
-        begun = time.perf_counter()
-        block = min(LARGEST_BLOCK, 64 + n // threads)
-        slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
-        store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
-        team.begin(bounds(sites), store, len(first))
-        begin = 0
-        for end in ends:
-            team.insert_round(todo[begin:end])
-            begin = end
-        each_stretch(n, team.slots())
-        seconds["insertion"] = time.perf_counter() - begun
-
-        begun = time.perf_counter()
-        for worker in team.workers:
-            vertices(store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
-        simplices, neighbors = _compact(team, store, original)
-        seconds["compaction"] = time.perf_counter() - begun
-        walked, tested, created = team.counts()
-    return Outcome(simplices, neighbors, duplicates, walked, tested, created, threads, team.deferred, seconds)
+    return tell
 
 
-def _in_order(sites: np.ndarray, team: Team) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _in_order(
+    sites: npt.NDArray[np.float64], threads: int
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64], npt.NDArray[np.int32]]:
     """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
     int32 (k, 2)."""
-    order = along_curve(sites, team.in_pieces)
+    by_all = partial(in_chunks, threads)
+    order = along_curve(sites, by_all)
     original = order.astype(np.int32)
     rows = aligned(4 * len(order), np.float64)
-    team.in_pieces(lambda i, j: gather(sites, original, rows, i, j), len(order))
-    found = []
-    team.in_pieces(lambda i, j: found.append(copied(rows, i, j)), len(order))
+    by_all(lambda i, j: gather(sites, original, rows, i, j), len(order))
+    found: list[bool] = []
+    by_all(lambda i, j: found.append(copied(rows, i, j)), len(order))
     if not any(found):
         return original, rows, np.empty((0, 2), np.int32)
     n, duplicates = separate_copies(sites, order)
     original, rows = order[:n].astype(np.int32), rows[: 4 * n]
-    team.in_pieces(lambda i, j: gather(sites, original, rows, i, j), n)
+    by_all(lambda i, j: gather(sites, original, rows, i, j), n)
     return original, rows, duplicates
 
 
-def _first(points: np.ndarray) -> np.ndarray:
+def _first(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
     """The first tetrahedron, of a sample of the sites if that spans a volume."""
     step = len(points) // FIRST_SAMPLE
     if step > 1:
@@ -135,24 +151,26 @@ def _first(points: np.ndarray) -> np.ndarray:
     return first_tetrahedron(np.ascontiguousarray(points), 0)
 
 
-def _compact(team: Team, store: Store, original: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _compact(
+    store: Store, original: npt.NDArray[np.int32], threads: int
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
     require(f"the result of {slots} tetrahedra", 8 * slots)  # their numbers now, and their iterations later
     number = np.empty(slots, np.int32)
-    pieces: dict[int, int] = {}
+    counts: dict[int, int] = {}
 
     def count(begin: int, end: int) -> None:
-        pieces[begin] = count_finite(mesh, begin, end)
+        counts[begin] = count_finite(mesh, begin, end)
 
-    team.in_pieces(count, slots)
-    begins = sorted(pieces)
-    total = np.cumsum([0] + [pieces[b] for b in begins])
+    in_chunks(threads, count, slots)
+    begins = sorted(counts)
+    total = np.cumsum([0] + [counts[b] for b in begins])
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
-    team.in_pieces(lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
+    in_chunks(threads, lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
     # the spheres have served; the result takes their memory, which is there and no less
     result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
     simplices, neighbors = result[0], result[1]
-    team.in_pieces(lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
+    in_chunks(threads, lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
     return simplices, neighbors

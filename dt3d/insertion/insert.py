@@ -6,7 +6,7 @@ heights |p|^2 + e_p (O. Devillers, M. Teillaud: Perturbations and vertex removal
 triangulation, SODA 2003), so the result does not depend on the order of insertion, and no tetrahedron is
 flat.
 
-The parts of `insert` are inlined into one function, and its arrays are borrowed: a call between compiled
+The parts of `insert` are inlined into one function, and its arrays have no owner: a call between compiled
 functions counts references to every array that it passes, which took a fifth of the time.
 """
 
@@ -17,7 +17,7 @@ import numba
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from .cavity import NO_ROOM, give_up, search
-from .layout import INFINITE, site_at_hand, vertex
+from .mesh import INFINITE, site_at_hand, vertex
 from .ownership import Part
 from .spheres import flat, round_spheres
 from .star import link, make_tetrahedra, note_tetrahedra, number_vertices

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .layout import INFINITE, accessor, vertex
+from .mesh import INFINITE, accessor, vertex
 
 
 class Part(NamedTuple):

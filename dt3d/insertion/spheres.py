@@ -39,7 +39,7 @@ import numpy as np
 
 from .._numba.kernel_cache import cached_njit
 from ..predicates.filtered import orient3d
-from .layout import radius_above, set_center, set_radius
+from .mesh import radius_above, set_center, set_radius
 
 U = 2.0**-53
 LEAST_SQUARE = 2.0**-110  # of m^2 and of what becomes a float32, which has its full precision above 2^-126

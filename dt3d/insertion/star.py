@@ -6,7 +6,7 @@ from __future__ import annotations
 import numba
 
 from .._numba.kernel_cache import cached_njit
-from .layout import (
+from .mesh import (
     INFINITE,
     facet,
     free_slot,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from ..predicates.filtered import ORIENT3D_BOUND, orient3d
-from .layout import INFINITE, neighbor, offset, side, site_at_hand, tetrahedron, tetrahedron_of, vertex
+from .mesh import INFINITE, neighbor, offset, side, site_at_hand, tetrahedron, tetrahedron_of, vertex
 from .ownership import Part, owns, owns_some
 
 NEARBY = 16  # sites on either side on the curve, from one of which a walk that stopped is begun again

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..predicates import work_array
-from .layout import FREE, INFINITE, neighbors, vertices
-from .mesh import Store
+from .mesh import FREE, INFINITE, neighbors, vertices
+from .store import Store
 
 FIRST_ROOM = 1 << 10  # facets of a cavity; grown where it is not enough
 TABLE_BITS = 6  # a star of up to 2^6 vertices is linked through a table of all edges

@@ -9,8 +9,8 @@ import pytest
 
 import dt3d
 from dt3d import _memory, threaded2d
-from dt3d.insertion import mesh
-from dt3d.insertion.layout import aligned
+from dt3d.insertion import store
+from dt3d.insertion.mesh import aligned
 
 
 @pytest.fixture
@@ -42,6 +42,15 @@ def test_a_thread_refused_to_location_is_a_memory_error(no_thread, monkeypatch):
     with pytest.raises(MemoryError, match="refused another thread.*fewer than 8192 points"):
         tri.find_simplex(many)
     assert (tri.find_simplex(many[1:]) >= -1).all()  # as the message advises
+
+
+def test_points_are_refused_before_they_are_located(memory):
+    for tri, d in ((dt3d.Delaunay(uniform(100)), 3), (threaded2d.Delaunay(uniform(100, 2)), 2)):
+        memory(1e6)
+        with pytest.raises(MemoryError, match="locating 10000 points needs about"):
+            tri.find_simplex(uniform(10_000, d))
+        assert (tri.find_simplex(uniform(5000, d)) >= -1).all()
+        memory(1e9)
 
 
 @pytest.fixture
@@ -81,9 +90,9 @@ def test_quadratically_many_tetrahedra_are_refused_when_there_is_no_room_for_twi
 
 def test_slots_are_refused_when_they_would_be_written(memory, monkeypatch):
     """Memory that others have taken since it was reserved."""
-    monkeypatch.setattr(mesh, "SLOTS_PER_CHECK", 100)
+    monkeypatch.setattr(store, "SLOTS_PER_CHECK", 100)
     memory(1e6)
-    slots = mesh.Store(aligned(16, np.float64), np.arange(4, dtype=np.uint32), 1000, block=50, assured=300)
+    slots = store.Store(aligned(16, np.float64), np.arange(4, dtype=np.uint32), 1000, block=50, assured=300)
     for _ in range(8):
         slots.take_block()
     assert 300 < slots.used <= slots.assured < 500
@@ -98,7 +107,7 @@ def test_slots_are_refused_when_they_would_be_written(memory, monkeypatch):
 def test_doubling_needs_the_old_and_the_new_half_at_once(memory):
     first = np.arange(4, dtype=np.uint32)
     memory(64 * 600)
-    small = mesh.Store(aligned(16, np.float64), first, 1000, 10)
+    small = store.Store(aligned(16, np.float64), first, 1000, 10)
     small.used = 1000
     small.grow()
     assert small.capacity == 2000
@@ -110,7 +119,7 @@ def test_doubling_needs_the_old_and_the_new_half_at_once(memory):
 
 
 def test_more_tetrahedra_than_32_bits_name_is_an_error_that_says_the_limit(monkeypatch):
-    for module in ("mesh", "driver"):
+    for module in ("store", "driver"):
         monkeypatch.setattr(f"dt3d.insertion.{module}.MOST_SLOTS", 10_000)
     with pytest.raises(ValueError, match="name at most 10000 = 2\\^30; triangulate fewer sites at a time"):
         dt3d.Delaunay(moments(400))

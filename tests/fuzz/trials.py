@@ -11,6 +11,7 @@ import numpy as np
 import dt3d
 import scanvec as sv
 from dt3d import threaded2d
+from dt3d._numba import threads as runner
 from dt3d.insertion import driver, team
 from dt3d.threaded2d.configuration import configured
 from dt3d.threaded2d.driver import triangulate as triangulate_plane
@@ -79,7 +80,7 @@ def contended(rng: Rng) -> Iterator[None]:
     settings = {
         (team, "LEAST_SITES_PER_THREAD"): int(rng.integers(1, 12)),
         (team, "SITES_PER_CALL"): int(rng.integers(1, 9)),
-        (team, "SECONDS_BETWEEN_LOOKS"): 0.001,
+        (runner, "SECONDS_BETWEEN_LOOKS"): 0.001,
         (driver, "LARGEST_BLOCK"): int(rng.choice([8, 64])),
         (driver, "SLOTS_PER_SITE"): int(rng.choice([1, 8])),
         (driver, "available_cores"): lambda: 8,

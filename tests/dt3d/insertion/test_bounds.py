@@ -10,8 +10,8 @@ import pytest
 
 import dt3d
 from dt3d.insertion import driver, insert, spheres, star, team, walk
-from dt3d.insertion.layout import FREE, bundle, neighbors, site_at_hand, squared_radii, vertices
-from dt3d.insertion.mesh import Store
+from dt3d.insertion.mesh import FREE, bundle, neighbors, site_at_hand, squared_radii, vertices
+from dt3d.insertion.store import Store
 from dt3d.insertion.worker import State, scratch_for
 from dt3d.predicates import work_array
 

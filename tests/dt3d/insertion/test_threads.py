@@ -43,7 +43,7 @@ def yielding(monkeypatch, eight_cores):
     stretches."""
     monkeypatch.setattr(team, "LEAST_SITES_PER_THREAD", 20)
     monkeypatch.setattr(team, "SITES_PER_CALL", 7)
-    monkeypatch.setattr(team, "SECONDS_BETWEEN_LOOKS", 0.001)
+    monkeypatch.setattr("dt3d._numba.threads.SECONDS_BETWEEN_LOOKS", 0.001)
     monkeypatch.setattr(driver, "LARGEST_BLOCK", 64)
     real = team.insert
     pauses = np.random.default_rng()
