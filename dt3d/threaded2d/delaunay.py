@@ -134,7 +134,7 @@ class Delaunay(Whole[Subset], InPlane):
             points=points,
             simplices=outcome.triangles,
             neighbors=outcome.neighbors,
-            thread=outcome.maker,
+            thread=outcome.thread,
             inserted_by=outcome.inserted_by,
             duplicates=outcome.duplicates,
             stats=outcome.stats,
