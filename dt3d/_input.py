@@ -9,7 +9,7 @@ from ._errors import DegenerateInputError
 from ._exact_conversion import to_float64 as to_float64
 from ._given import as_numbers
 
-# Indices of faces (four a tetrahedron, some seven tetrahedra a site) are int32.
+# Indices of faces (four per tetrahedron, some seven tetrahedra per site) are int32.
 MOST_SITES = 2**25
 
 

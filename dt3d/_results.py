@@ -88,7 +88,7 @@ class Result:
             array = state[name]
             if not isinstance(array, np.ndarray) or not array.ndim:
                 damaged(f"{name} is no array")
-            # a buffer that came beside the pickle may belong to someone who changes it
+            # a buffer that came beside the pickle may be changed by its owner
             arrays[name] = array if _in_bytes(array) else array.copy()
         self._check(arrays)
         self._keep(**{name: state[name] for name in state.keys() - set(self._derived)} | arrays)

@@ -7,7 +7,7 @@
        one line says what
 70     a fault of dt3d, to be reported (EX_SOFTWARE of sysexits.h)
 130    Ctrl-C (128 + SIGINT)
-141    whoever read the output has closed it, as `head` does (128 + SIGPIPE)
+141    the reader of the output has closed it, as `head` does (128 + SIGPIPE)
 ====== ==================================================================================
 """
 
@@ -40,7 +40,7 @@ class Verdict(SystemExit):
 
 
 class Printer(Console):
-    """A console whose failures reach `run`: rich itself would end the process with status 1.
+    """A console that passes its failures to `run`: rich itself would end the process with status 1.
 
     Nor does it draw stars for the name of a file that has ``:star:`` in it.
     """
@@ -202,7 +202,7 @@ class _Interrupts:
     def __enter__(self) -> _Interrupts:
         if threading.current_thread() is threading.main_thread():
             before = signal.getsignal(signal.SIGINT)
-            if callable(before):  # neither ignored nor somebody else's who is not Python
+            if callable(before):  # neither ignored nor set by something else than Python
                 self.before = before
                 signal.signal(signal.SIGINT, self._come)
         self.unraisable = sys.unraisablehook

@@ -146,7 +146,7 @@ def balance(
     table = new_table(
         f"{sites} sites, uniform cells, {PROCESSORS} processors: time over that of perfect balance",
         ("sites", "scheme"),
-        ("each by itself", "in lock-step", "sites an expansion"),
+        ("each by itself", "in lock-step", "sites per expansion"),
     )
     result, lines, examined = {}, [], {}
     for k, (name, points) in enumerate(
@@ -172,7 +172,7 @@ def balance(
     axes[0].legend(fontsize=8)
     console.print(table)
     for name, searched in examined.items():
-        console.print(f"{name}: the search itself examined {searched:.1f} sites an expansion.")
+        console.print(f"{name}: the search itself examined {searched:.1f} sites per expansion.")
     console.print(
         "Requests and warrants share out the sites of uniform cells evenly also where sites cluster; "
         "what they cannot mend is the work itself, since a few cells hold most sites. Where cells fill "

@@ -94,12 +94,12 @@ def _print(measured: list[Row], console: Console, seed: int) -> None:
     table = new_table(
         f"Teng et al. 1993, Table 1: paper / ours ({PROCESSORS} simulated processors, float64)",
         ("set",),
-        ("tetrahedra", "diff %", "depth", "expansions", "a tetrahedron", "searched"),
+        ("tetrahedra", "diff %", "depth", "expansions", "per tetrahedron", "searched"),
     )
     spread = new_table(
         f"Random sets of {len(measured[0].others)} and fewer other seeds: mean ± deviation",
         ("set",),
-        ("sets", "tetrahedra", "depth", "expansions a tetrahedron", "searched"),
+        ("sets", "tetrahedra", "depth", "expansions per tetrahedron", "searched"),
     )
     for row in measured:
         p, o = row.paper, row.ours
@@ -177,9 +177,9 @@ def _draw(measured: list[Row], seconds: dict[str, float]) -> Figure:
     random = [r for r in measured if r.random]
     n = [r.paper.sites for r in random]
     columns: tuple[tuple[str, Callable[[PaperRow | Measured, int], float]], ...] = (
-        ("tetrahedra a site", lambda m, sites: m.tetrahedra / sites),
-        ("face expansions a tetrahedron", lambda m, sites: m.per_tetrahedron),
-        ("sites searched an expansion", lambda m, sites: m.searched),
+        ("tetrahedra per site", lambda m, sites: m.tetrahedra / sites),
+        ("face expansions per tetrahedron", lambda m, sites: m.per_tetrahedron),
+        ("sites searched per expansion", lambda m, sites: m.searched),
     )
     figure, axes = panels(4, 4.0)
     for ax, (title, value) in zip(axes, columns, strict=False):

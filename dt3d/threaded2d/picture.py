@@ -42,24 +42,7 @@ def to_pyvista(tri: InPlane, heights: npt.ArrayLike | None = None) -> pyvista.Po
 
 
 def plot(tri: InPlane, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None) -> Axes:
-    """Draw the triangles, coloured by the threads that made them.
-
-    Parameters
-    ----------
-    tri : threaded2d.Delaunay or threaded2d.Subset
-        What is drawn.
-    ax : matplotlib axes, optional
-        A new figure's if left out.
-    colormap : str
-        A name of matplotlib's.
-    edges : bool, optional
-        Whether to draw edges; by default up to 20,000 triangles.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed.
-    """
+    """Draw the triangles, coloured by the threads that made them, as `Delaunay.plot` does."""
     if ax is None:
         ax = new_figure(6, 6).add_subplot()
     colormaps = optional("matplotlib").colormaps

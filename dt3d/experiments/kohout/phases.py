@@ -53,7 +53,7 @@ def phases(
                 [str(row["points"]) for row in rows], values, bottom=below, label=column.removesuffix(" ms")
             )
             below = [b + v for b, v in zip(below, values, strict=True)]
-        axes.set(xlabel="points", ylabel="microseconds a point", title=f"sequential, {order} order")
+        axes.set(xlabel="points", ylabel="microseconds per point", title=f"sequential, {order} order")
         axes.legend()
 
     note = "Uniform points, DAG. The paper frees its structure too, in what is neither location nor change."
