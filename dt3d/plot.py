@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._optional import optional
-from ._output import save_figure
+from ._output import save_figure as save_figure
 from ._paths import check_writable
 from ._topology import OUTWARD
 
