@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 class Delaunay(Whole[Subset], InSpace):
     """The Delaunay triangulation of points in space.
 
-    Four engines compute it, one of which is for points in the plane. Which call runs what:
+    Which call runs what:
 
     ========================================  ===========================================================
     call                                      engine
@@ -38,7 +38,9 @@ class Delaunay(Whole[Subset], InSpace):
     ``Delaunay(points, machine=S)``           extrapolation in vectors, exact search; a ledger of its steps
     ``Delaunay(points, machine=S,             the paper: Teng, Sullivan, Beichl and Puppo (1993), with their
     robustness="perturb")``                   random perturbation and consistency check
-    ``threaded2d.Delaunay(points2d)``         in the plane, by threads (Kohout, Kolingerova, Zara 2004)
+    ``threaded2d.Delaunay(points2d)``         in the plane: threads that change one mesh in place
+    ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
+    method="batch", order="random")``         methods have names, too
     ========================================  ===========================================================
 
     Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same

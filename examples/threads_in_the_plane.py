@@ -38,7 +38,7 @@ def main(argv: list[str] | None = None) -> None:
             f"{method}: {len(tri.triangles)} triangles, {'the same' if same else 'OTHERS'} as by one thread"
         )
         print(f"    inserted {s.inserted}, waits {s.waits}, begun again {s.retries}")
-        print(f"    {s.tests_per_access:.1f} circum-circle tests per change, {s.exceptions} deadlocks resolved")
+        print(f"    {s.tests_per_access:.1f} tests per change, {s.exceptions} deadlocks resolved")
 
     if options.write is not None:
         save_figure(tri.plot().figure, options.write)
