@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -16,7 +17,7 @@ from .._topology import OUTWARD
 from ..delaunay import Delaunay
 from ..extrapolation import normalise
 from ..extrapolation.points import Point
-from ..extrapolation.signed_distance import frame, signed_distance
+from ..extrapolation.signed_distance import Frame, frame, signed_distance
 from . import calibration
 from ._output import new_table, panels, print_model, publish
 from .paper import BREAK_EVEN, PROCESSORS, RANDOM
@@ -30,13 +31,13 @@ MOST_BY_BRUTE_FORCE = 2000  # sites; its time grows with their square
 
 
 class Nearest(NamedTuple):
-    """The best site so far of a face."""
+    """The best site so far of a face: on a machine a vector of them, for a function of `map` one."""
 
     distance: Any
     site: Any
 
 
-def _examine(face: Any, best: Nearest, site: Point, k: Any) -> Nearest:
+def _examine(face: Frame, best: Nearest, site: Point, k: jax.Array) -> Nearest:
     distance = signed_distance(face, site)
     better = distance < best.distance
     return Nearest(jnp.where(better, distance, best.distance), jnp.where(better, k, best.site))
@@ -50,7 +51,10 @@ def exhaustive(machine: sv.Machine, sites: np.ndarray, faces: np.ndarray) -> np.
 
     Parameters
     ----------
+    machine : scanvec.Machine
+        What searches.
     sites : float64 (n, 3)
+        All that are tried.
     faces : int (m, 3)
         Oriented with the normal (b-a) x (c-a) towards the side that is searched.
     """
@@ -59,7 +63,7 @@ def exhaustive(machine: sv.Machine, sites: np.ndarray, faces: np.ndarray) -> np.
     best = Nearest(machine.full(len(faces), np.inf, np.float64), machine.full(len(faces), -1, np.int32))
     for k, site in enumerate(sites):
         best = machine.map(_examine, frames, best, Point(*site), np.int32(k))
-    return best.site.to_numpy()
+    return np.asarray(best.site.to_numpy())
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ def break_evens_without_a_row(sizes: list[Size]) -> list[float | None]:
 
 def _ratio(size: Size, model: sv.Model) -> float:
     assert size.brute_force is not None
-    return np.log(size.brute_force.under(model).seconds / size.bucketing.under(model).seconds)
+    return float(np.log(size.brute_force.under(model).seconds / size.bucketing.under(model).seconds))
 
 
 def figure2(

@@ -124,10 +124,12 @@ class Measurement:
 
     @property
     def stated_steps(self) -> int:
+        """The steps that the formula says."""
         return self.primitive.steps(self.bits)
 
     @property
     def holds(self) -> bool:
+        """Whether the counted steps and elements are those stated."""
         least, most = self.primitive.elements(self.n, self.stated_steps)
         return self.row.steps == self.stated_steps and least <= self.row.elements <= most
 

@@ -20,7 +20,7 @@ TYPES = {
 }  # fmt: skip
 
 ATTRIBUTES = {"vectors": 3, "normals": 3, "tensors": 9, "tensors6": 6, "global_ids": 1, "pedigree_ids": 1}
-"""Numbers a point or cell, of the attributes that are written ``KEYWORD name type``."""
+"""Numbers per point or cell, of the attributes that are written ``KEYWORD name type``."""
 
 CELL_DATA = "cell data "
 """Stands before the names of arrays of the cells."""

@@ -27,6 +27,12 @@ def test_progress_is_reported_after_every_iteration():
     assert all(a.seconds < b.seconds for a, b in zip(seen, seen[1:], strict=False))
 
 
+def test_the_old_name_of_what_remains_warns():
+    progress = dt3d.Progress(1, 5, 3, 0.1)
+    with pytest.warns(DeprecationWarning, match="now Progress.remaining"):
+        assert progress.open_faces == progress.remaining
+
+
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_what_a_callback_raises_ends_the_run_within_an_iteration(error):
     seen = []
