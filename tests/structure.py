@@ -146,11 +146,23 @@ def import_graph(modules: list[Source], *when: str) -> dict[str, set[str]]:
 
 
 def raw_indices(source: Source, arrays: set[str]) -> list[str]:
-    """The subscripts of these arrays, by their last names, whose index multiplies by 4 or 8."""
+    """The subscripts of these arrays, by their last names, whose index is a product with 4 or 8.
+
+    The product may have been put into a variable before: ``t = 8 * slot; mesh[t + 4]``.
+    """
+    products = {
+        target.id
+        for node in ast.walk(source.tree)
+        if isinstance(node, ast.Assign) and _multiplies(node.value)
+        for target in node.targets
+        if isinstance(target, ast.Name)
+    }
     return [
         f"line {node.lineno}: {ast.unparse(node)}"
         for node in ast.walk(source.tree)
-        if isinstance(node, ast.Subscript) and _last_name(node.value) in arrays and _multiplies(node.slice)
+        if isinstance(node, ast.Subscript)
+        and _last_name(node.value) in arrays
+        and (_multiplies(node.slice) or products & _names(node.slice))
     ]
 
 
@@ -167,12 +179,16 @@ def _last_name(node: ast.expr) -> str:
     return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
 
 
-def _multiplies(index: ast.expr) -> bool:
+def _names(node: ast.expr) -> set[str]:
+    return {name.id for name in ast.walk(node) if isinstance(name, ast.Name)}
+
+
+def _multiplies(value: ast.expr) -> bool:
     return any(
         isinstance(node, ast.BinOp)
         and isinstance(node.op, ast.Mult)
         and any(isinstance(side, ast.Constant) and side.value in (4, 8) for side in (node.left, node.right))
-        for node in ast.walk(index)
+        for node in ast.walk(value)
     )
 
 

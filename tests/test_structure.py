@@ -176,7 +176,8 @@ class Long:
     @staticmethod
     def long(n: int):
         mesh[8 * n + 4 + 1] = mesh[n] + spheres[n * 4] + self.mesh[2 * (8 * n)]
-        return other_array[8 * n]
+        k = 8 * n
+        return other_array[8 * n] + mesh[k + 1]
 """
 
 
@@ -184,15 +185,16 @@ def test_what_the_helpers_count():
     bad = Source("p.bad", "p/bad.py", BAD)
     assert any_parameters(bad) == ["typed(value)", "typed(pairs)"]
     assert [len(parameters(function)) for function in bad.functions()] == [9, 3, 1]
-    assert [lines(function) for function in bad.functions()] == [1, 3, 3]
+    assert [lines(function) for function in bad.functions()] == [1, 3, 4]
     modules = {"p.bad", "p.other", "p.other._module"}
     taken = ["p.other._hidden", "p.other._module._own", "p.other._secret"]
     assert sorted(private_names(bad, modules)) == taken
-    assert [index.partition(": ")[2] for index in raw_indices(bad, {"mesh", "spheres"})] == [
+    assert {index.partition(": ")[2] for index in raw_indices(bad, {"mesh", "spheres"})} == {
         "mesh[8 * n + 4 + 1]",
         "spheres[n * 4]",
         "self.mesh[2 * (8 * n)]",
-    ]
+        "mesh[k + 1]",
+    }
     assert file_rows("| file | |\n|---|---|\n| `a/b.py` | what |\n| x | `c.py` |\n| `d.py` | |") == [
         "a/b.py",
         "d.py",
