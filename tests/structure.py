@@ -12,6 +12,18 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("scanvec", "dt3d")
 
+# decorators whose functions numba compiles or calls while it compiles
+COMPILED = {
+    "cached_njit",
+    "njit",
+    "jit",
+    "intrinsic",
+    "overload",
+    "register_jitable",
+    "guvectorize",
+    "vectorize",
+}
+
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -78,6 +90,18 @@ def any_parameters(source: Source) -> list[str]:
 def lines(function: Function) -> int:
     """The lines of a function from ``def`` to its end; its decorators are not counted."""
     return (function.end_lineno or function.lineno) - function.lineno + 1
+
+
+def kernels(source: Source) -> set[Function]:
+    """The functions that numba compiles, and those within them: their types are inferred."""
+    outer = {f for f in source.functions() if any(_decorator(node) in COMPILED for node in f.decorator_list)}
+    return {inner for f in outer for inner in ast.walk(f) if isinstance(inner, Function)}
+
+
+def untyped(function: Function) -> list[str]:
+    """The parameters without an annotation, and "return" where that has none."""
+    missing = [arg.arg for arg in parameters(function) if arg.annotation is None]
+    return missing if function.returns is not None else [*missing, "return"]
 
 
 def private_names(source: Source, modules: set[str]) -> list[str]:
@@ -169,6 +193,10 @@ def raw_indices(source: Source, arrays: set[str]) -> list[str]:
 def file_rows(text: str) -> list[str]:
     """The files of a page's tables: the first cells of rows that are a path in backticks, ending in .py."""
     return re.findall(r"^\| *`([\w/]+\.py)` *\|", text, re.MULTILINE)
+
+
+def _decorator(node: ast.expr) -> str:
+    return _last_name(node.func if isinstance(node, ast.Call) else node)
 
 
 def _private(name: str) -> bool:

@@ -6,6 +6,7 @@ Figures that a test can count are limits here, and each failure lists where they
 from __future__ import annotations
 
 import re
+import tomllib
 from collections import Counter
 from pathlib import PurePosixPath
 
@@ -18,11 +19,13 @@ from .structure import (
     circles,
     file_rows,
     import_graph,
+    kernels,
     lines,
     parameters,
     private_names,
     raw_indices,
     sources,
+    untyped,
 )
 
 MOST_ANY = 60  # parameters, in both packages together; each says beside it why no other type is true
@@ -55,6 +58,22 @@ def test_few_parameters_are_any():
     assert total < MOST_ANY, f"{total} parameters are Any:\n" + "\n".join(
         f"{count:4} {path}: {', '.join(found[path])}" for path, count in counts.most_common()
     )
+
+
+def test_only_kernels_are_untyped():
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["mypy"]
+    (lenient,) = (part for part in settings["overrides"] if "disallow_untyped_defs" in part)
+    with_kernels = {source.name for source in SOURCES if kernels(source)}
+    assert settings["strict"]
+    assert lenient["module"] == sorted(with_kernels)
+    wrong = [
+        f"{source.path}: {function.name} ({', '.join(untyped(function))})"
+        for source in SOURCES
+        if source.name in with_kernels
+        for function in set(source.functions()) - kernels(source)
+        if untyped(function)
+    ]
+    assert not wrong, _listed(sorted(wrong))
 
 
 def test_functions_fit_on_a_page():
@@ -172,6 +191,13 @@ def typed(self, value: Any, pairs: dict[str, "Any"], Anything: int) -> Any:
     from .inside import thing
     return other._secret + other.__doc__ + other.open + _module._own
 
+@intrinsic
+def compiled(context, a: int) -> int:
+    def codegen(b): ...
+
+@numba.njit(cache=True)
+def kernel(a): ...
+
 class Long:
     @staticmethod
     def long(n: int):
@@ -184,8 +210,17 @@ class Long:
 def test_what_the_helpers_count():
     bad = Source("p.bad", "p/bad.py", BAD)
     assert any_parameters(bad) == ["typed(value)", "typed(pairs)"]
-    assert [len(parameters(function)) for function in bad.functions()] == [9, 3, 1]
-    assert [lines(function) for function in bad.functions()] == [1, 3, 4]
+    sizes = {f.name: (len(parameters(f)), lines(f)) for f in bad.functions()}
+    assert sizes == {
+        "many": (9, 1),
+        "typed": (3, 3),
+        "compiled": (2, 2),
+        "codegen": (1, 1),
+        "kernel": (1, 1),
+        "long": (1, 4),
+    }
+    assert {function.name for function in kernels(bad)} == {"compiled", "codegen", "kernel"}
+    assert [untyped(function) for function in kernels(bad) if function.name == "compiled"] == [["context"]]
     modules = {"p.bad", "p.other", "p.other._module"}
     taken = ["p.other._hidden", "p.other._module._own", "p.other._secret"]
     assert sorted(private_names(bad, modules)) == taken
