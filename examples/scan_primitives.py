@@ -83,7 +83,7 @@ def _group(less, equal):
 
 def _previous(v: sv.Vector) -> sv.Vector:
     index = v.machine.iota(len(v))
-    return sv.get(v, index - 1, where=index > 0)
+    return sv.get(v, index - 1, where=index > 0, otherwise=0)
 
 
 def _is_sorted(keys: sv.Vector) -> bool:

@@ -37,8 +37,8 @@ def components(machine: sv.Machine, n: int, edges: np.ndarray, seed: int = 0) ->
             heads = machine.vector(rng.random(n) < 0.5)
             head_u, head_v = sv.get(heads, u), sv.get(heads, v)
             # both directions of an edge may hook: the tail's component becomes a child of the head's
-            parent = sv.send(u, v, sv.COPY, parent, where=head_u & ~head_v)
-            parent = sv.send(v, u, sv.COPY, parent, where=head_v & ~head_u)
+            parent = sv.send(u, v, sv.COPY, into=parent, where=head_u & ~head_v)
+            parent = sv.send(v, u, sv.COPY, into=parent, where=head_v & ~head_u)
         with machine.phase("relabel"):
             u, v = sv.get(parent, u), sv.get(parent, v)
         with machine.phase("pack"):

@@ -15,6 +15,8 @@ and keep a ledger of every step; `Device` runs the same programs on whole vector
 G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 """
 
+from . import _deprecated
+
 # cost models, and their calibration
 from ._calibration import calibrate
 
@@ -24,6 +26,7 @@ from ._connection_machines import CM2, CM5
 
 # machines, vectors and ledgers
 from ._device import Device
+from ._elementwise import elementwise
 from ._entry import Entry, Row
 
 # scalars
@@ -32,15 +35,15 @@ from ._ledger import Ledger
 from ._machine import Machine
 
 # two records into one
-from ._merge import flag_merge, select
+from ._merge import flag_merge, where
 from ._model import Constant, Model
 
 # operators
 from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
 
 # movement
-from ._move import append, distribute, get, pack, pack_index, permute, send, split
-from ._networks import Hypercube, Mesh2D
+from ._move import append, distribute, full_like, get, pack, pack_index, permute, scatter, send, split
+from ._networks import HYPERCUBE, MESH2D
 from ._pram import CRCW_PRAM, EREW_PRAM, SCAN
 
 # scans and reductions
@@ -63,11 +66,19 @@ from ._vector import Vector
 
 __all__ = [
     "ADD", "AND", "ARGMIN", "COPY", "MAX", "MIN", "MUL", "OR",
-    "CM2", "CM5", "CRCW_PRAM", "EREW_PRAM", "Hypercube", "Mesh2D", "SCAN",
+    "CM2", "CM5", "CRCW_PRAM", "EREW_PRAM", "HYPERCUBE", "MESH2D", "SCAN",
     "ConcurrentAccessError", "Conflict", "Constant", "Device", "Entry", "Ledger", "Machine", "Model",
     "Monoid", "Row", "Segments", "Simulated", "Vector",
-    "append", "backscan", "backscan_inclusive", "calibrate", "copy_scan", "distribute", "enumerate",
-    "extract", "flag_merge", "get", "insert", "op_distribute", "pack", "pack_index", "permute", "rank",
-    "reduce", "scan", "scan_inclusive", "segmented_sort", "select", "send", "sort", "split", "union",
-    "unique",
+    "append", "backscan", "backscan_inclusive", "calibrate", "copy_scan", "distribute", "elementwise",
+    "enumerate", "extract", "flag_merge", "full_like", "get", "insert", "op_distribute", "pack", "pack_index",
+    "permute", "rank", "reduce", "scan", "scan_inclusive", "scatter", "segmented_sort", "send", "sort",
+    "split", "union", "unique", "where",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> object:
+    if name in _deprecated.NAMES:
+        _deprecated.warn(name, _deprecated.NAMES[name])
+        return globals()[_deprecated.NAMES[name]]
+    msg = f"module {__name__!r} has no attribute {name!r}"
+    raise AttributeError(msg)

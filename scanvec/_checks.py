@@ -63,13 +63,13 @@ def out_of_range(what: str, least: int, greatest: int, n: int) -> None:
     raise IndexError(msg)
 
 
-def check_distinct(index: Vector, where: Vector | None, place: jax.Array, into: jax.Array) -> None:
+def check_distinct(what: str, index: Vector, where: Vector | None, place: jax.Array, into: jax.Array) -> None:
     hits = int(_local.most_hits(into, place))
     if hits > 1:
         targets = index.to_numpy() if where is None else index.to_numpy()[where.to_numpy()]
         values, counts = np.unique(targets, return_counts=True)
         msg = (
-            f"permute: {hits} elements are sent to position {values[counts.argmax()]}; a permutation takes "
-            f"distinct indices. For a concurrent write use scanvec.send with a combining operator"
+            f"{what}: {hits} elements are sent to position {values[counts.argmax()]}; an exclusive write "
+            f"takes distinct indices. For a concurrent write use scanvec.send with a combining operator"
         )
         raise ValueError(msg)

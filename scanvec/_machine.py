@@ -20,6 +20,7 @@ from ._checks import (
     out_of_range,
     vectors_and_scalars,
 )
+from ._deprecated import into_by_position, old_keywords, zero_otherwise
 from ._monoid import ADD, MUL, Monoid
 from ._records import blocks_of, check_alike, is_vector, structure_of, vectors_of
 from ._running import computing
@@ -166,9 +167,10 @@ class Machine(abc.ABC):
             out = self._map(fn, blocks_of(args), blocks_of(where), blocks_of(otherwise), n)
             return self._wrap(out, n)
 
+    @old_keywords
     def scan(
         self,
-        record: Any,
+        v: Any,
         op: Monoid,
         *,
         exclusive: bool,
@@ -180,26 +182,27 @@ class Machine(abc.ABC):
         ``heads`` marks the first element of each segment; the scan restarts there (or, backward, at the
         last element of each segment).
         """
-        vectors = vectors_of(record)
+        vectors = vectors_of(v)
         if op in (ADD, MUL):  # as NumPy does, booleans are added as integers
-            record = jax.tree.map(
-                lambda v: v.astype(np.int32) if v.dtype == bool else v, record, is_leaf=is_vector
-            )
-            vectors = vectors_of(record)
-        for v in vectors:
-            op.check(v.dtype, "scan")
+            v = jax.tree.map(lambda x: x.astype(np.int32) if x.dtype == bool else x, v, is_leaf=is_vector)
+            vectors = vectors_of(v)
+        for x in vectors:
+            op.check(x.dtype, "scan")
         if heads is not None:
             check_flags(heads, "scan: heads")
             check_alike([vectors[0], heads])
         n = len(vectors[0])
         with computing():
-            out = self._scan(op, exclusive, backward, blocks_of(record), blocks_of(heads), n)
+            out = self._scan(op, exclusive, backward, blocks_of(v), blocks_of(heads), n)
             return self._wrap(out, n)
 
-    def get(self, record: Any, index: Vector, *, where: Vector | None = None, otherwise: Any = 0) -> Any:
+    @zero_otherwise
+    @old_keywords
+    def get(self, v: Any, index: Vector, *, where: Vector | None = None, otherwise: Any = None) -> Any:
         """Concurrent read: r[i] = v[index[i]] where where[i], else the scalar ``otherwise``.
 
-        One step, len(index) elements. Several elements may read one place.
+        One step, len(index) elements. Several elements may read one place. ``otherwise`` is required with
+        ``where``.
 
         Raises
         ------
@@ -208,11 +211,14 @@ class Machine(abc.ABC):
         TypeError
             If ``index`` is not an integer vector, or ``otherwise`` not a scalar.
         """
-        vectors = vectors_of(record)
+        vectors = vectors_of(v)
         index = check_index(index, vectors[0].machine, "get")
         if where is not None:
             check_flags(where, "get: where")
             check_alike([index, where])
+            if otherwise is None:
+                msg = "get under a context needs `otherwise`: what elements outside the context get"
+                raise TypeError(msg)
         if is_vector(otherwise) or np.ndim(otherwise):
             msg = f"get: `otherwise` must be a scalar, got {type(otherwise).__name__}"
             raise TypeError(msg)
@@ -220,15 +226,27 @@ class Machine(abc.ABC):
         with computing():
             place, loads, handled = self._routed("get", index, where, n, m)
             self._charge("get", n, loads, handled, vectors)
-            out = jax.tree.map(lambda v: _local.take(v._block, place, otherwise), record, is_leaf=is_vector)
+            fill = 0 if otherwise is None else otherwise
+            out = jax.tree.map(lambda x: _local.take(x._block, place, fill), v, is_leaf=is_vector)
             return self._wrap(out, n)
 
-    def send(self, record: Any, index: Vector, op: Monoid, into: Any, *, where: Vector | None = None) -> Any:
+    @into_by_position
+    @old_keywords
+    def send(
+        self,
+        v: Any,
+        index: Vector,
+        op: Monoid,
+        *,
+        into: Any,
+        where: Vector | None = None,
+        what: str = "send",
+    ) -> Any:
         """Concurrent write: r = into, then for every i with where[i]: r[index[i]] = op(r[index[i]], v[i]).
 
         ``COPY`` replaces: of several senders to one place the one of lowest index wins. The order of other
         operators' combinations is not defined, so float sums may differ in the last bits between machines.
-        One step, max(len(v), len(into)) elements.
+        One step, max(len(v), len(into)) elements. Errors say ``what`` was called.
 
         Raises
         ------
@@ -239,37 +257,39 @@ class Machine(abc.ABC):
         TypeError
             If ``index`` is not an integer vector, or ``op`` is not defined for a dtype.
         """
-        vectors = vectors_of(record)
+        vectors = vectors_of(v)
         places = vectors_of(into)
-        index = check_index(index, vectors[0].machine, "send")
+        index = check_index(index, vectors[0].machine, what)
         check_alike([vectors[0], index] + ([] if where is None else [where]))
         if where is not None:
-            check_flags(where, "send: where")
+            check_flags(where, f"{what}: where")
         if places[0].machine is not vectors[0].machine:
             check_alike([vectors[0], places[0]])
-        if structure_of(record) != structure_of(into):
-            msg = f"send: a record {structure_of(record)} cannot go into a record {structure_of(into)}"
+        if structure_of(v) != structure_of(into):
+            msg = f"{what}: a record {structure_of(v)} cannot go into a record {structure_of(into)}"
             raise ValueError(msg)
-        if [v.dtype for v in vectors] != [v.dtype for v in places]:
-            got, want = [str(v.dtype) for v in vectors], [str(v.dtype) for v in places]
-            msg = f"send: elements of {', '.join(got)} cannot go into {', '.join(want)}; convert with astype"
+        if [x.dtype for x in vectors] != [x.dtype for x in places]:
+            got, want = [str(x.dtype) for x in vectors], [str(x.dtype) for x in places]
+            msg = (
+                f"{what}: elements of {', '.join(got)} cannot go into {', '.join(want)}; convert with astype"
+            )
             raise ValueError(msg)
         if op not in _local.COMBINERS:
             msg = (
-                f"send: the operator {op.name} cannot combine a concurrent write; "
+                f"{what}: the operator {op.name} cannot combine a concurrent write; "
                 f"use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY"
             )
             raise TypeError(msg)
-        for v in vectors:
-            op.check(v.dtype, "send")
+        for x in vectors:
+            op.check(x.dtype, what)
         n, m = len(vectors[0]), len(places[0])
         with computing():
             place, loads, handled = self._routed("send", index, where, n, m)
             if op is _local.UNIQUE:
-                check_distinct(index, where, place, places[0]._block)
+                check_distinct(what, index, where, place, places[0]._block)
             self._charge("send", max(n, m), loads, handled, vectors)
             out = jax.tree.map(
-                lambda r, v: _local.put(op, r._block, place, v._block), into, record, is_leaf=is_vector
+                lambda r, x: _local.put(op, r._block, place, x._block), into, v, is_leaf=is_vector
             )
             return self._wrap(out, m)
 

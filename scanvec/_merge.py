@@ -1,22 +1,28 @@
-"""Two records become one by flags: select takes the same place of either, flag_merge the next of either."""
+"""Two records become one by flags: where takes the same place of either, flag_merge the next of either."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from . import _local
+import jax
+import jax.numpy as jnp
+
 from ._checks import check_flags
 from ._composed import composed
+from ._deprecated import old_keywords
 from ._monoid import ADD
-from ._records import length_of, machine_of, structure_of, vectors_of
+from ._move import check_one_kind
+from ._records import has_vectors, length_of
 from ._scan import scan_inclusive
 from ._vector import Vector
 
 
-def select(flags: Vector, first: Any, second: Any) -> Any:
+@old_keywords
+def where(flags: Vector, v: Any, w: Any) -> Any:
     """r[i] = v[i] where flags[i], else w[i]. One step, n elements.
 
-    `p-select` of Blelloch 1990, chapter 4. Records must be of one structure and have the same dtypes.
+    `p-select` of Blelloch 1990, chapter 4. Records must be of one structure and have the same dtypes. A
+    scalar in place of either stands for all its elements, and takes the dtype of the other as in NumPy.
 
     Raises
     ------
@@ -25,13 +31,23 @@ def select(flags: Vector, first: Any, second: Any) -> Any:
     TypeError
         If the flags are not booleans.
     """
-    check_flags(flags, "select: the flags")
-    _check_one_kind("select", first, second)
-    return machine_of(first).map(_local.select, flags, first, second)
+    check_flags(flags, "where: the flags")
+    if has_vectors(v) and has_vectors(w):
+        check_one_kind("where", v, w)
+    return flags.machine.map(_choose, flags, v, w)
 
 
+def _choose(flag: Any, v: Any, w: Any) -> Any:
+    if jax.tree_util.all_leaves([v]):
+        return jax.tree.map(lambda y: jnp.where(flag, v, y), w)
+    if jax.tree_util.all_leaves([w]):
+        return jax.tree.map(lambda x: jnp.where(flag, x, w), v)
+    return jax.tree.map(lambda x, y: jnp.where(flag, x, y), v, w)
+
+
+@old_keywords
 @composed
-def flag_merge(first: Any, second: Any, flags: Vector) -> Any:
+def flag_merge(v: Any, w: Any, flags: Vector) -> Any:
     """r takes the next element of w where its flag is set, of v where not; `split` undone. Seven steps.
 
     Over len(v) + len(w) elements, as many as flags. Blelloch 1990, chapter 3: the step of the halving merge.
@@ -45,33 +61,24 @@ def flag_merge(first: Any, second: Any, flags: Vector) -> Any:
         If the flags are not booleans.
     """
     check_flags(flags, "flag_merge: the flags")
-    _check_one_kind("flag_merge", first, second)
+    check_one_kind("flag_merge", v, w)
     machine, n = flags.machine, len(flags)
     ups = scan_inclusive(flags, ADD)
     found = int(machine.item(ups, -1)) if n else 0
-    if found != length_of(second) or n - found != length_of(first):
+    if found != length_of(w) or n - found != length_of(v):
         msg = (
-            f"flag_merge: {n - found} flags are clear and {found} set, but there are {length_of(first)} and "
-            f"{length_of(second)} elements to merge; give a clear flag for each element of the first record, "
+            f"flag_merge: {n - found} flags are clear and {found} set, but there are {length_of(v)} and "
+            f"{length_of(w)} elements to merge; give a clear flag for each element of the first record, "
             f"and a set one for each of the second"
         )
         raise ValueError(msg)
-    clear, from_first, from_second = machine.map(_sources, flags, ups, machine.iota(n))
-    return select(
+    clear, from_v, from_w = machine.map(_sources, flags, ups, machine.iota(n))
+    return where(
         flags,
-        machine.get(second, from_second, where=flags),
-        machine.get(first, from_first, where=clear),
+        machine.get(w, from_w, where=flags, otherwise=0),
+        machine.get(v, from_v, where=clear, otherwise=0),
     )
 
 
 def _sources(flag: Any, ups: Any, i: Any) -> tuple[Any, Any, Any]:
     return ~flag, i - ups, ups - 1
-
-
-def _check_one_kind(what: str, first: Any, second: Any) -> None:
-    if structure_of(first) != structure_of(second):
-        msg = f"{what}: the two records have different structures"
-        raise ValueError(msg)
-    if [v.dtype for v in vectors_of(first)] != [v.dtype for v in vectors_of(second)]:
-        msg = f"{what}: the two records have different dtypes; convert with astype"
-        raise ValueError(msg)

@@ -38,15 +38,15 @@ def _mesh(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
     return _scan_model(entry, processors, c) + c["step"] * route
 
 
-Hypercube = Model(
-    "Hypercube",
+HYPERCUBE = Model(
+    "HYPERCUBE",
     "unit steps; a scan is one exchange a dimension; messages take log2(P) and the busiest processor's load",
     _hypercube,
     {"step": STEP},
 )
 
-Mesh2D = Model(
-    "Mesh2D",
+MESH2D = Model(
+    "MESH2D",
     "unit steps; a scan is three sweeps of a side; messages take the diameter, and the busiest processor's "
     "load or a quarter of all over the links in the middle (as of random places; not measured)",
     _mesh,

@@ -16,6 +16,11 @@ def is_vector(x: Any) -> bool:
     return isinstance(x, Vector)
 
 
+def has_vectors(record: Any) -> bool:
+    """Whether any leaf is a vector; a scalar has none."""
+    return any(map(is_vector, jax.tree.leaves(record, is_leaf=is_vector)))
+
+
 def vectors_of(record: Any) -> list[Vector]:
     """The vectors of a record (a pytree whose leaves are vectors), checked to share machine and length."""
     leaves = jax.tree.leaves(record, is_leaf=is_vector)

@@ -86,7 +86,7 @@ class Segments:
         starts = ends.astype(np.int32) - lengths
         marks = machine.full(n, -1, np.int32)
         if n:
-            marks = machine.send(machine.iota(m), starts, _local.UNIQUE, marks, where=lengths > 0)
+            marks = machine.send(machine.iota(m), starts, _local.UNIQUE, into=marks, where=lengths > 0)
         return cls(marks >= 0, machine.scan(marks, MAX, exclusive=False), lengths, starts)
 
     @classmethod
@@ -108,9 +108,9 @@ class Segments:
         ids = machine.scan(heads, ADD, exclusive=False) - 1
         m = int(machine.item(ids, -1)) + 1
         zeros = machine.full(m, 0, np.int32)
-        starts = machine.send(index, ids, _local.UNIQUE, zeros, where=heads)
+        starts = machine.send(index, ids, _local.UNIQUE, into=zeros, where=heads)
         ones = machine.full(n, 1, np.int32)
-        return cls(heads, ids, machine.send(ones, ids, ADD, zeros), starts)
+        return cls(heads, ids, machine.send(ones, ids, ADD, into=zeros), starts)
 
     @classmethod
     def from_ids(cls, ids: Vector) -> Segments:
@@ -120,7 +120,7 @@ class Segments:
         if not n:
             return cls.from_flags(machine.full(0, False, bool))
         index = machine.iota(n)
-        before = machine.get(ids, index - 1, where=index > 0)
+        before = machine.get(ids, index - 1, where=index > 0, otherwise=0)
         return cls.from_flags(ids != before)
 
 

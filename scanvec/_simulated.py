@@ -35,7 +35,7 @@ class Simulated(Machine):
         P, at least 1.
     model : Model, optional
         Predicts the time of what runs, as ``ledger.seconds``: `EREW_PRAM`, `CRCW_PRAM`, `SCAN`, `CM2`, `CM5`,
-        `Hypercube`, `Mesh2D`, or your own.
+        `HYPERCUBE`, `MESH2D`, or your own.
     also : iterable of int, optional
         Further numbers of processors, for which the loads of the same steps are counted, each in a ledger of
         its own. A program whose course does not depend on P, as results never do, need not run again for

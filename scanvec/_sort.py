@@ -8,6 +8,7 @@ import jax
 import jax.numpy as jnp
 
 from ._composed import composed
+from ._deprecated import old_keywords
 from ._monoid import OR
 from ._move import append, get, pack, permute, split
 from ._records import length_of, machine_of, vectors_of
@@ -120,12 +121,13 @@ def unique(keys: Any) -> Any:
     machine = machine_of(keys)
     ordered = sort(keys)
     index = machine.iota(n)
-    before = get(ordered, index - 1, where=index > 0)
+    before = get(ordered, index - 1, where=index > 0, otherwise=0)
     new = machine.map(_differs, ordered, before) | (index == 0)
     return pack(ordered, new)
 
 
+@old_keywords
 @composed
-def union(first: Any, second: Any) -> Any:
+def union(v: Any, w: Any) -> Any:
     """The distinct elements of both, in ascending order."""
-    return unique(append(first, second))
+    return unique(append(v, w))

@@ -69,14 +69,14 @@ def bucket(sites: Point) -> Buckets:
     grid = _grid(low, high, n / SITES_PER_CELL, sites.x.dtype.type)
     cell = machine.map(cell_of, sites, grid)
     counts = machine.full(int(grid.nx) * int(grid.ny) * int(grid.nz), 0, np.int32)
-    counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, counts)
+    counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, into=counts)
     occupied = int(sv.reduce(counts > 0, sv.ADD))
     if n > EVEN * SITES_PER_CELL * occupied:
         return Buckets(*_along_curve(sites, low, high), None)
     code = machine.map(_code_of_cell, sites, grid)
     _, (ordered, origin, cell) = sv.sort(code, (sites, machine.iota(n), cell))
     starts = machine.full(len(counts), n, np.int32)
-    starts = sv.send(machine.iota(n), cell, sv.MIN, starts)
+    starts = sv.send(machine.iota(n), cell, sv.MIN, into=starts)
     return Buckets(ordered, origin, Cells(grid, starts, counts))
 
 
@@ -99,7 +99,7 @@ def _longest_run(words: tuple[sv.Vector, ...]) -> int:
     """The most consecutive equal rows."""
     machine, n = words[0].machine, len(words[0])
     index = machine.iota(n)
-    before = sv.get(words, index - 1, where=index > 0)
+    before = sv.get(words, index - 1, where=index > 0, otherwise=0)
     heads = machine.map(_differ, words, before) | (index == 0)
     return int(sv.reduce(sv.Segments.from_flags(heads).lengths, sv.MAX))
 

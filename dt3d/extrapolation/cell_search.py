@@ -66,7 +66,7 @@ def search(buckets: Buckets, queries: Any, first: tuple[Point, Point], question:
             _check_rounds(state, cells.grid)
         state, done, count = _round(buckets, cells, state, question, steps)
         searched += count
-        answer = sv.permute(state.best, state.index, into=answer, where=done)
+        answer = sv.scatter(state.best, state.index, into=answer, where=done)
         state = sv.pack(state, ~done)
     return Answer(answer, searched)
 
@@ -91,13 +91,13 @@ def _round(
     counts = machine.map(_cells_to_open, state.new, state.dead)
     # added up in 64 bits: thousands of faces may ask for all of thousands of cells
     going = machine.map(_fits, sv.scan(counts.astype(np.int64), sv.ADD))
-    counts = machine.map(_if, going, counts, 0)
+    counts = sv.where(going, counts, 0)
 
     # requests: one for each cell that a query opens
     requests = sv.Segments.from_lengths(counts)
     asked = sv.get((state.query, state.best.high, state.new, state.dead), requests.ids)
     cell, admitted = machine.map(steps.request, *asked, requests.offsets, grid)
-    start, count = sv.get((cells.starts, cells.counts), cell, where=admitted)
+    start, count = sv.get((cells.starts, cells.counts), cell, where=admitted, otherwise=0)
 
     # warrants: one for each few sites of a request's cell
     wanted = machine.map(_warrants_for, count)
@@ -152,10 +152,6 @@ def _cells_to_open(new: Box, dead: Box) -> Any:
 
 def _fits(before: Any) -> Any:
     return before < MOST_REQUESTS
-
-
-def _if(flag: Any, a: Any, b: Any) -> Any:
-    return jnp.where(flag, a, b)
 
 
 def _warrants_for(count: Any) -> Any:

@@ -115,7 +115,7 @@ def bury(dead: DeadFaces, tetrahedra: Tetrahedron, first: int) -> tuple[DeadFace
         entries = len(dead.tetrahedron)
         filled, holders = dictionary.insert(dead.dictionary, machine.map(face_key, faces))
         beaten = holders != machine.iota(len(holders)) + entries
-        refuted = sv.send(beaten, owner, sv.OR, machine.full(len(tetrahedra.a), False, bool))
+        refuted = sv.send(beaten, owner, sv.OR, into=machine.full(len(tetrahedra.a), False, bool))
         count = int(sv.reduce(refuted, sv.ADD))
         if not count:
             numbers = owner + first

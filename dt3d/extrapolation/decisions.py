@@ -56,7 +56,7 @@ def expand_exactly(exact: ExactSites, faces: Face) -> tuple[Expansion, Counts]:
     if len(index):
         few, bound = sv.get((queries, best.high), index)
         winner, refuting, more = _decide(exact, Bounded(few, bound))
-        site, refuter = sv.permute((winner, refuting), index, into=(site, refuter))
+        site, refuter = sv.scatter((winner, refuting), index, into=(site, refuter))
         searched += more
     return Expansion(site, low, refuter), Counts(m, searched, len(index))
 
@@ -82,12 +82,12 @@ def _decide(exact: ExactSites, queries: Bounded) -> tuple[sv.Vector, sv.Vector, 
         coplanar = sv.append(coplanar, sv.pack(pairs, sign == 0))
     nobody = machine.full(m, NO_SITE, np.int32)
     rivals = _tournament(exact, faces, above)
-    winner = sv.permute(rivals.node, rivals.query, into=nobody)
+    winner = sv.scatter(rivals.node, rivals.query, into=nobody)
 
     apex = sv.get(winner, coplanar.query)
     beside, apex = sv.pack((coplanar, apex), apex != NO_SITE)
     refutes = exact.inside(sv.get(faces, beside.query), apex, beside.node)
-    refuter = sv.send(beside.node, beside.query, sv.MAX, nobody, where=refutes)
+    refuter = sv.send(beside.node, beside.query, sv.MAX, into=nobody, where=refutes)
     return winner, refuter, searched
 
 
@@ -121,7 +121,7 @@ def _open_sites(exact: ExactSites, queries: Bounded, requests: Request) -> sv.Ve
     for k in range(FANOUT):
         site = requests.node * FANOUT + k
         exists = site < n
-        point = sv.get(exact.buckets.sites, site, where=exists)
+        point = sv.get(exact.buckets.sites, site, where=exists, otherwise=0)
         mask = machine.map(_mark, mask, query, point, site, exists, k)
     return mask
 
@@ -148,6 +148,6 @@ def _tournament(exact: ExactSites, faces: Face, rivals: Request) -> Request:
         owner, champion = sv.get(rivals, index)
         challenger = sv.get(rivals.node, index + 1)
         wins = exact.inside(sv.get(faces, owner), champion, challenger)
-        winner = rivals.query.machine.map(jnp.where, wins, challenger, champion)
-        sites = sv.permute(winner, index, into=rivals.node)
+        winner = sv.where(wins, challenger, champion)
+        sites = sv.scatter(winner, index, into=rivals.node)
         rivals = sv.pack(Request(rivals.query, sites), left)

@@ -81,9 +81,9 @@ def look_up(dictionary: Dictionary, keys: Any) -> sv.Vector:
         turn = _next_turn(turn, slots)
         entry = sv.get(dictionary.table, probe.slot)
         taken = entry != EMPTY
-        other = sv.get(dictionary.keys, entry, where=taken)
+        other = sv.get(dictionary.keys, entry, where=taken, otherwise=0)
         same = machine.map(_same, taken, probe.key, other)
-        found = sv.permute(entry, probe.index, into=found, where=same)
+        found = sv.scatter(entry, probe.index, into=found, where=same)
         probe = sv.pack(machine.map(_next_probe, probe, slots), machine.map(_walks_on, taken, same))
     return found
 
@@ -96,10 +96,10 @@ def _claim(table: sv.Vector, entries: Any, keys: Any, first: int) -> tuple[sv.Ve
     while len(probe.index):
         turn = _next_turn(turn, slots)
         free = sv.get(table, probe.slot) == EMPTY
-        table = sv.send(probe.index + first, probe.slot, sv.MIN, table, where=free)
+        table = sv.send(probe.index + first, probe.slot, sv.MIN, into=table, where=free)
         entry = sv.get(table, probe.slot)
         same = machine.map(_equal, probe.key, sv.get(entries, entry))
-        holders = sv.permute(entry, probe.index, into=holders, where=same)
+        holders = sv.scatter(entry, probe.index, into=holders, where=same)
         probe = sv.pack(machine.map(_next_probe, probe, slots), ~same)
     return table, holders
 

@@ -92,7 +92,7 @@ def execute(buckets: Buckets, query: Any, start: sv.Vector, length: sv.Vector, q
     for k in range(SITES_PER_WARRANT):
         site = start + k
         active = length > k
-        point = sv.get(buckets.sites, site, where=active)
+        point = sv.get(buckets.sites, site, where=active, otherwise=0)
         best = machine.map(_examination(question), query, point, site, active, best)
     return best
 

@@ -54,8 +54,8 @@ def seeds(exact: ExactSites, facets: Face) -> tuple[Seeds, Counts]:
         apart = exact.inside(facet, apex, site)
         points = [sv.get(exact.buckets.sites, v) for v in (facet.a, facet.b, apex, site)]
         nearer = machine.map(_of_smaller_circle, *points, apex, site)
-        refuting = machine.map(jnp.where, apart, nearer, NO_SITE)
-        refuter = sv.permute(refuting, index, into=refuter)
+        refuting = sv.where(apart, nearer, NO_SITE)
+        refuter = sv.scatter(refuting, index, into=refuter)
         good = machine.map(_stands, front, back, refuter)
         if int(sv.reduce(good, sv.ADD)):
             both = sv.pack(Seeds(faces, expansion.site), sv.append(good, good))

@@ -115,7 +115,7 @@ def _enter_children(tree: Tree, queries: Any, requests: Request, level: int, tes
     first, size = tree.first[level - 1], tree.sizes[level - 1]
     for k in range(FANOUT):
         child, exists = machine.map(_child, requests.node, k, size)
-        low, high = sv.get((tree.low, tree.high), child + first, where=exists)
+        low, high = sv.get((tree.low, tree.high), child + first, where=exists, otherwise=0)
         mask = machine.map(test, mask, query, low, high, exists, k)
     return unfold(requests, mask)
 

@@ -80,7 +80,7 @@ def search(buckets: Buckets, queries: Any, question: Question) -> Answer:
         best, count = _below(buckets, bounded, question)
         # what lies below a bound is complete, and nothing else is
         done = machine.map(_is_complete, best.high, bounded.high, state.known)
-        answer = sv.permute(best, state.index, into=answer, where=done)
+        answer = sv.scatter(best, state.index, into=answer, where=done)
         state = sv.pack(state, ~done)
         searched, trial = searched + count, trial + 1
     return Answer(answer, searched)
@@ -109,7 +109,7 @@ def _below(buckets: Buckets, queries: Bounded, question: Question) -> tuple[Best
         own = sv.get(queries.query, requests.query)
         found, count = _search_leaves(buckets, own, requests.node, question)
         ones = machine.full(len(requests.query), 1, np.int32)
-        counts = sv.send(ones, requests.query, sv.ADD, machine.full(m, 0, np.int32))
+        counts = sv.send(ones, requests.query, sv.ADD, into=machine.full(m, 0, np.int32))
         best = better_of(best, sv.reduce(found, LEAST, sv.Segments.from_lengths(counts)))
         searched += count
     return best, searched

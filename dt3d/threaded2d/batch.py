@@ -16,13 +16,10 @@ from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .dag import descend
 from .flips import insert
-from .hands import AT_ONCE, locate_one, prepare
-from .patience import NAP, STEP, strive
-from .prefetch import prefetch
-from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
-from .share import borrowed_sites
-from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, LOOKS, WAITING, pause, verdict
-from .store import (
+from .in_place.walk import walk_history
+from .lookahead.located import AT_ONCE, locate_one, prepare
+from .lookahead.prefetch import prefetch
+from .mesh import (
     AT,
     CHANGE_CYCLES,
     HELPED,
@@ -33,7 +30,10 @@ from .store import (
     VISITED,
     stumble,
 )
-from .walk import walk_history
+from .patience import NAP, STEP, strive
+from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, LOOKS, WAITING, pause, verdict
+from .work_sharing import borrowed_sites
 
 
 @cached_njit(forceinline=True)

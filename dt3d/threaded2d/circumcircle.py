@@ -22,35 +22,10 @@ from ..predicates.filtered2d import orient2d
 from .atomics import TURNS, cycles, load, load_acquire, wait_a_little
 from .dag import descend
 from .flips import flip, illegal, subdivide
-from .hands import AT_ONCE, locate_one, prepare
-from .patience import GIVING_WAY, NAP, STEP, strive
-from .pool import (
-    BEGIN,
-    EXCEPTIONAL,
-    LEGALISE,
-    NOBODY,
-    SUBDIVIDE,
-    blocker_of,
-    clear_exception,
-    publish,
-    retire,
-    still_waits,
-    wait_for,
-)
-from .queue import ITEM_NODE, ITEM_SITE
-from .share import borrowed_sites
-from .steps import (
-    CHANGED,
-    DONE,
-    FINISHED,
-    GO_ON,
-    LOCATED,
-    OPEN_SWAPS,
-    WAITING,
-    spend,
-    verdict,
-)
-from .store import (
+from .illegal_edges import note_star
+from .in_place.walk import walk_history
+from .lookahead.located import AT_ONCE, locate_one, prepare
+from .mesh import (
     ACCESSES,
     AT,
     CHANGE_CYCLES,
@@ -72,8 +47,33 @@ from .store import (
     WAITS,
     stumble,
 )
-from .suspects import note_star
-from .walk import walk_history
+from .patience import GIVING_WAY, NAP, STEP, strive
+from .pool import (
+    BEGIN,
+    EXCEPTIONAL,
+    LEGALISE,
+    NOBODY,
+    SUBDIVIDE,
+    blocker_of,
+    clear_exception,
+    publish,
+    retire,
+    still_waits,
+    wait_for,
+)
+from .queue import ITEM_NODE, ITEM_SITE
+from .steps import (
+    CHANGED,
+    DONE,
+    FINISHED,
+    GO_ON,
+    LOCATED,
+    OPEN_SWAPS,
+    WAITING,
+    spend,
+    verdict,
+)
+from .work_sharing import borrowed_sites
 
 HEAD_START = 1024
 

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from .._kernel_cache import cached_njit
-from .store import CHILD, NEIGHBOR
+from .mesh import CHILD, NEIGHBOR
 from .threads import briefly
 
 PIECE_BITS = 14  # of a node's number within its piece

@@ -14,11 +14,11 @@ import numpy as np
 from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
-from .cavity import in_conflict
 from .flips import flip
+from .illegal_edges import leaves_below
+from .in_place.cavity import in_conflict
+from .mesh import CHILD, INFINITE, NEIGHBOR, USED, Store
 from .steps import GO_ON, verdict
-from .store import CHILD, INFINITE, NEIGHBOR, USED, Store
-from .suspects import leaves_below
 from .threads import together
 
 

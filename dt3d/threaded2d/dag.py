@@ -11,7 +11,7 @@ from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .geometry import root_of, side
-from .store import CHILD
+from .mesh import CHILD
 
 
 @cached_njit(forceinline=True)

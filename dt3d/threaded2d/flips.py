@@ -6,7 +6,7 @@ from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import store_release
 from .geometry import conflicts
-from .store import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
+from .mesh import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
 
 
 @cached_njit(forceinline=True)

@@ -17,7 +17,7 @@ from numba.extending import intrinsic
 from .._kernel_cache import cached_njit
 from ..predicates.filtered2d import in_circle, orient2d
 from ..predicates.outlined import call_outlined
-from .store import INFINITE
+from .mesh import INFINITE
 
 
 @cached_njit

@@ -12,13 +12,10 @@ from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import TURNS, cycles, store_release, wait_a_little
-from .cavity import BUSY, claim, give_back
 from .dag import descend, locate
 from .flips import insert
-from .patience import GIVING_WAY, NAP, strive
-from .share import borrowed_sites, next_site
-from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, spend, verdict
-from .store import (
+from .in_place.cavity import BUSY, claim, give_back
+from .mesh import (
     ACCESSES,
     CHANGE_CYCLES,
     HELD,
@@ -36,6 +33,9 @@ from .store import (
     WAIT_CYCLES,
     stumble,
 )
+from .patience import GIVING_WAY, NAP, strive
+from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, spend, verdict
+from .work_sharing import borrowed_sites, next_site
 
 # phases: next site, exclusive access, change
 BEGIN, CLAIM, CHANGE = range(3)

@@ -21,7 +21,7 @@ from __future__ import annotations
 from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load
-from .store import FLIPS, INSERTED, LOOKED, MOST_LOOKS, NEXT, SEEN
+from .mesh import FLIPS, INSERTED, LOOKED, MOST_LOOKS, NEXT, SEEN
 
 # effort, in units that take 8 ns or more
 STEP = 4  # an attempt of any kind

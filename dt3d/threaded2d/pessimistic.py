@@ -8,10 +8,8 @@ from ..predicates.borrowed import borrowed
 from .atomics import compare_and_swap, cycles, give_way, load, release
 from .dag import descend
 from .flips import insert
-from .patience import GIVING_WAY, strive
-from .share import borrowed_sites, next_site
-from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
-from .store import (
+from .in_place.walk import walk_history
+from .mesh import (
     CHANGE_CYCLES,
     CRITICAL,
     HINT,
@@ -24,7 +22,9 @@ from .store import (
     WAITS,
     stumble,
 )
-from .walk import walk_history
+from .patience import GIVING_WAY, strive
+from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
+from .work_sharing import borrowed_sites, next_site
 
 
 @cached_njit(nogil=True)

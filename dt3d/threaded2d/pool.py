@@ -10,7 +10,7 @@ import numpy as np
 from .._kernel_cache import cached_njit
 from .atomics import acquire, load, load_acquire, release, store, store_release
 from .geometry import conflicts
-from .store import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
+from .mesh import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
 
 # columns of `pool`: a thread's site or -1, how many it has finished, for which insertion of whom it waits or
 # -1, and whether another one made use of its waiting; then room for a path of waiting threads

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._kernel_cache import cached_njit
 from .atomics import compare_and_swap, load, load_acquire, store_release
-from .store import HEAD, TAIL
+from .mesh import HEAD, TAIL
 
 # columns of `cells`, and the first two of elements in hand
 ITEM_SITE, ITEM_NODE, TURN = range(3)

@@ -6,9 +6,9 @@ from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import cycles
 from .flips import insert
-from .share import borrowed_sites, next_site
+from .mesh import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
 from .steps import DONE, GO_ON, find, spend, verdict
-from .store import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
+from .work_sharing import borrowed_sites, next_site
 
 
 @cached_njit(nogil=True)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from .._kernel_cache import cached_njit
 from .atomics import cycles, load, nap
 from .dag import locate
-from .store import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
-from .walk import walk_history
+from .in_place.walk import walk_history
+from .mesh import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS
 
 LOOKS = 50  # at the queue before a thread that waits sleeps: about a microsecond
 

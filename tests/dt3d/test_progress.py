@@ -21,8 +21,8 @@ def test_progress_is_reported_after_every_iteration():
     tri = dt3d.Delaunay(points, method="extrapolation", callback=seen.append)
     assert [p.iteration for p in seen] == list(range(1, tri.stats.iterations + 1))
     assert [p.tetrahedra for p in seen] == np.cumsum(tri.stats.tetrahedra_per_iteration).tolist()
-    assert seen[-1].open_faces == 0
-    assert all(p.open_faces > 0 for p in seen[:-1])
+    assert seen[-1].remaining == 0
+    assert all(p.remaining > 0 for p in seen[:-1])
     assert all(a.seconds < b.seconds for a, b in zip(seen, seen[1:], strict=False))
 
 
@@ -91,7 +91,7 @@ def test_insertion_reports_every_stretch_and_stops(monkeypatch):
     dt3d.Delaunay(points, method="insertion", callback=seen.append)
     assert [p.iteration for p in seen] == [1, 2, 3]
     for progress, least in zip(seen, (50, 10, -1), strict=True):
-        assert least < progress.open_faces <= least + 10  # forty more, and what is left of ten
+        assert least < progress.remaining <= least + 10  # forty more, and what is left of ten
 
     def stop(progress):
         raise KeyboardInterrupt

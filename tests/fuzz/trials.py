@@ -12,8 +12,8 @@ import dt3d
 import scanvec as sv
 from dt3d import threaded2d
 from dt3d.insertion import crew, loop
-from dt3d.threaded2d.delaunay import _options
-from dt3d.threaded2d.plan import triangulate as triangulate_plane
+from dt3d.threaded2d.configuration import configured
+from dt3d.threaded2d.driver import triangulate as triangulate_plane
 
 from . import oracle
 from .families import Rng
@@ -124,15 +124,15 @@ def _plane(tri: Any, rng: Rng) -> list[str]:
 
     sites = exactly_scaled(tri.points)
     for method in (*PARALLEL, "auto"):
-        options = _options(
+        options = configured(
             len(sites),
-            method,
-            int(rng.integers(2, 9)),
-            str(rng.choice(["brio", "random"])),
-            str(rng.choice(["dag", "walk"])),
-            int(rng.choice([2, 3, 64])),
-            str(rng.choice(SUBDIVISIONS)),
-            int(rng.integers(2**31)),
+            method=method,
+            threads=int(rng.integers(2, 9)),
+            order=str(rng.choice(["brio", "random"])),
+            location=str(rng.choice(["dag", "walk"])),
+            queue_length=int(rng.choice([2, 3, 64])),
+            subdivision=str(rng.choice(SUBDIVISIONS)),
+            seed=int(rng.integers(2**31)),
         )
         outcome = triangulate_plane(sites, options.contended(2, helping=bool(rng.integers(2))))
         _require_equal(tri.points, outcome.triangles, tri, method)

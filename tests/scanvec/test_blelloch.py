@@ -1,4 +1,4 @@
-"""Operations of Blelloch's book: select, flag_merge, op_distribute, splits by segments, extract, insert."""
+"""Operations of Blelloch's book: where, flag_merge, op_distribute, splits by segments, extract, insert."""
 
 import hypothesis.strategies as st
 import numpy as np
@@ -15,14 +15,26 @@ DISTRIBUTED = [(sv.ADD, "int32"), (sv.ADD, "bool"), (sv.MAX, "float32"), (sv.AND
 
 
 @given(n=sizes, data=st.data())
-def test_select(n, data):
+def test_where(n, data):
     flags = of_dtype(data.draw(words(n)), "bool")
     pair = [{"a": of_dtype(data.draw(words(n)), "int16"), "b": of_dtype(data.draw(words(n)), "float64")}
             for _ in range(2)]  # fmt: skip
     for machine in MACHINES:
-        got = sv.select(machine.vector(flags), *(load(machine, record) for record in pair))
+        got = sv.where(machine.vector(flags), *(load(machine, record) for record in pair))
         for key in "ab":
             assert_same(got[key], twins.select(flags, pair[0][key], pair[1][key]))
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=repr)
+def test_where_takes_scalars(machine):
+    flags, v = machine.vector([True, False, True]), machine.vector([4, 5, 6], np.int16)
+    assert_same(sv.where(flags, v, 0), np.array([4, 0, 6], np.int16))
+    assert_same(sv.where(flags, -1, v), np.array([-1, 5, -1], np.int16))
+    assert_same(sv.where(flags, 0, 1), np.array([0, 1, 0]))
+    assert_same(sv.where(flags, {"a": v}, 0)["a"], np.array([4, 0, 6], np.int16))
+    assert_same(sv.where(flags, 7, (v, v > 5))[0], np.array([7, 5, 7], np.int16))
+    with pytest.raises(ValueError, match="vectors have different lengths: 3 and 2"):
+        sv.where(flags, machine.iota(2), 0)
 
 
 @given(n=sizes, data=st.data())
@@ -103,10 +115,10 @@ def test_errors(machine):
         sv.flag_merge(v, v, flags)
     with pytest.raises(ValueError, match="flag_merge: the two records have different structures"):
         sv.flag_merge(v, (v,), flags)
-    with pytest.raises(ValueError, match="select: .* different dtypes; convert with astype"):
-        sv.select(flags, v, v.astype(float))
-    with pytest.raises(TypeError, match="select: the flags must be a Vector of bool, got int64"):
-        sv.select(v, v, v)
+    with pytest.raises(ValueError, match="where: .* different dtypes; convert with astype"):
+        sv.where(flags, v, v.astype(float))
+    with pytest.raises(TypeError, match="where: the flags must be a Vector of bool, got int64"):
+        sv.where(v, v, v)
     segments = sv.Segments.from_lengths(machine.vector([2]))
     with pytest.raises(ValueError, match="the segments describe 2 elements, the vector has 3"):
         sv.split(v, flags, segments)

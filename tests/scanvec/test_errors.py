@@ -88,21 +88,24 @@ CASES = [
     (lambda: sv.get(INTS, FLAGS), TypeError, "get: the index must be a Vector of integers, got bool"),
     (lambda: sv.get(INTS, [0]), TypeError, "get: the index must be a Vector of integers, got list"),
     (lambda: sv.get(INTS, ELSEWHERE), ValueError, "get: the index lives on Device(), the vector on"),
-    (lambda: sv.get(INTS, INTS, where=INTS), TypeError, "get: where must be a Vector of bool, got int32"),
-    (lambda: sv.get(INTS, LONGER, where=FLAGS), ValueError, "vectors have different lengths: 4 and 3"),
+    (lambda: sv.get(INTS, INTS, where=INTS, otherwise=0), TypeError, "get: where must be a Vector of bool,"),
+    (lambda: sv.get(INTS, LONGER, where=FLAGS, otherwise=0), ValueError, "vectors have different lengths: 4"),
     # send and permute
-    (lambda: sv.send(INTS, INTS, sv.ADD, INTS), IndexError, "send: indices from 4 to 6, but the vector has"),
-    (lambda: sv.send(INTS, FLOATS, sv.ADD, INTS), TypeError, "send: the index must be a Vector of integers,"),
-    (lambda: sv.send(INTS, LONGER, sv.ADD, INTS), ValueError, "vectors have different lengths: 3 and 4"),
-    (lambda: sv.send(INTS, INTS, sv.ADD, ELSEWHERE), ValueError, "vectors live on different machines"),
-    (lambda: sv.send(INTS, INTS, sv.ADD, FLOATS), ValueError, "send: elements of int32 cannot go into"),
-    (lambda: sv.send((INTS, INTS), INTS, sv.ADD, [INTS, INTS]), ValueError, "send: a record"),
-    (lambda: sv.send(FLAGS, INTS, sv.ADD, FLAGS), TypeError, "send: the operator add is not defined for"),
-    (lambda: sv.send(INTS, INTS - 4, MINE, INTS), TypeError, "send: the operator mine cannot combine a"),
-    (lambda: sv.send(INTS, INTS, sv.ADD, INTS, where=INTS), TypeError, "send: where must be a Vector of"),
+    (lambda: sv.send(INTS, INTS, sv.ADD, into=INTS), IndexError, "send: indices from 4 to 6, but the vector"),
+    (lambda: sv.send(INTS, FLOATS, sv.ADD, into=INTS), TypeError, "send: the index must be a Vector of"),
+    (lambda: sv.send(INTS, LONGER, sv.ADD, into=INTS), ValueError, "vectors have different lengths: 3 and 4"),
+    (lambda: sv.send(INTS, INTS, sv.ADD, into=ELSEWHERE), ValueError, "vectors live on different machines"),
+    (lambda: sv.send(INTS, INTS, sv.ADD, into=FLOATS), ValueError, "send: elements of int32 cannot go into"),
+    (lambda: sv.send((INTS, INTS), INTS, sv.ADD, into=[INTS, INTS]), ValueError, "send: a record"),
+    (lambda: sv.send(FLAGS, INTS, sv.ADD, into=FLAGS), TypeError, "send: the operator add is not defined"),
+    (lambda: sv.send(INTS, INTS - 4, MINE, into=INTS), TypeError, "send: the operator mine cannot combine a"),
+    (lambda: sv.send(INTS, INTS, sv.ADD, into=INTS, where=INTS), TypeError, "send: where must be a Vector"),
     (lambda: sv.permute(INTS, M.vector([1, 2, 1])), ValueError, "permute: 2 elements are sent to position"),
     (lambda: sv.permute(INTS, M.vector([0, 1, 3])), IndexError, "indices from 0 to 3, but the vector has 3"),
-    (lambda: sv.permute(INTS, INTS, where=FLAGS), ValueError, "permute under a context needs `into`: what"),
+    (lambda: sv.permute(INTS, LONGER), ValueError, "vectors have different lengths: 3 and 4"),
+    (lambda: sv.scatter(INTS, INTS * 0, into=INTS), ValueError, "scatter: 3 elements are sent to position 0"),
+    (lambda: sv.scatter(INTS, INTS, into=INTS), IndexError, "indices from 4 to 6, but the vector has 3"),
+    (lambda: sv.scatter(INTS, INTS, into=FLOATS), ValueError, "scatter: elements of int32 cannot go into"),
     # what is composed
     (lambda: sv.pack(INTS, INTS), TypeError, "the flags must be a Vector of bool, got int32"),
     (lambda: sv.pack(LONGER, FLAGS), ValueError, "vectors have different lengths: 4 and 3"),
@@ -127,11 +130,17 @@ def test_errors(program, error, text):
 
 CURES = [
     (lambda: sv.scan(FLOATS, sv.AND), "convert the vector first, for example with v.astype('int32')"),
-    (lambda: sv.send(INTS, INTS - 4, MINE, INTS), "use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY"),
+    (
+        lambda: sv.send(INTS, INTS - 4, MINE, into=INTS),
+        "use one of scanvec's ADD, MUL, MIN, MAX, AND, OR, COPY",
+    ),
     (lambda: sv.permute(INTS, INTS * 0), "For a concurrent write use scanvec.send with a combining operator"),
     (lambda: bool(FLAGS), "use scanvec.reduce(v, scanvec.OR) or scanvec.AND"),
     (lambda: M.map(abs, INTS, where=FLAGS), "`otherwise`: what elements outside the context get"),
-    (lambda: sv.permute(INTS, INTS, where=FLAGS), "`into`: what stays where nothing is sent"),
+    (
+        lambda: M.get(INTS, INTS, where=FLAGS, otherwise=None),
+        "`otherwise`: what elements outside the context get",
+    ),
     (lambda: sv.append(INTS, FLOATS), "convert with astype"),
 ]
 
@@ -153,7 +162,7 @@ def test_a_repeated_index_is_found_on_every_machine(machine):
 def test_a_user_defined_operator_may_have_any_name():
     # the name alone must not make it one of those that send knows
     with pytest.raises(TypeError, match="the operator min cannot combine"):
-        sv.send(INTS, INTS - 4, sv.Monoid("min", jnp.add, lambda dtype: 0), INTS)
+        sv.send(INTS, INTS - 4, sv.Monoid("min", jnp.add, lambda dtype: 0), into=INTS)
 
 
 def test_get_takes_a_scalar_for_what_is_outside_the_context():

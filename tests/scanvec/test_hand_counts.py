@@ -50,7 +50,7 @@ REVERSE_AND_PACK = [
 def count_letters(cm: sv.Simulated) -> None:
     """How often each of 4 letters occurs: a concurrent write; and everyone reads its own letter's count."""
     letters = cm.vector(np.array([0, 1, 0, 0, 2, 0, 3, 0]))
-    counts = sv.send(cm.full(8, 1, np.int32), letters, sv.ADD, cm.full(4, 0, np.int32))
+    counts = sv.send(cm.full(8, 1, np.int32), letters, sv.ADD, into=cm.full(4, 0, np.int32))
     sv.get(counts, letters)
 
 
@@ -103,8 +103,8 @@ def unit_steps(program, model: sv.Model) -> float:
         (sv.CRCW_PRAM, 2 + 4 + 4),
         (sv.EREW_PRAM, 2 + 4 + 4),
         # one exchange for each of two dimensions; three sweeps of two rows
-        (sv.Hypercube, 2 + 4 + 2),
-        (sv.Mesh2D, 2 + 4 + 6),
+        (sv.HYPERCUBE, 2 + 4 + 2),
+        (sv.MESH2D, 2 + 4 + 6),
     ],
 )
 def test_unit_steps_of_a_sum(model, steps):
@@ -119,8 +119,8 @@ def test_unit_steps_of_a_sum(model, steps):
         # concurrent: 1 + log2(4) times as long
         (sv.EREW_PRAM, 6 + 6),
         # the diameter and the busiest processor's messages come on top
-        (sv.Hypercube, 2 + 2 + 4 + 2 + 2 + 5),
-        (sv.Mesh2D, 2 + 2 + 4 + 2 + 2 + 5),
+        (sv.HYPERCUBE, 2 + 2 + 4 + 2 + 2 + 5),
+        (sv.MESH2D, 2 + 2 + 4 + 2 + 2 + 5),
     ],
 )
 def test_unit_steps_of_concurrent_accesses(model, steps):

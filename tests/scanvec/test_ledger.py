@@ -66,7 +66,7 @@ def test_get(cm, v, index, messages, busiest):
     ],
 )
 def test_send(cm, v, index, m, messages, busiest):
-    sv.send(v, cm.vector(index), sv.ADD, cm.vector(np.zeros(m, int)))
+    sv.send(v, cm.vector(index), sv.ADD, into=cm.vector(np.zeros(m, int)))
     n = max(8, m)
     assert only_entry(cm) == sv.Entry("", "send", "send", n, n // 4, messages, busiest, 8)
 
@@ -74,8 +74,8 @@ def test_send(cm, v, index, m, messages, busiest):
 def test_elements_outside_the_context_send_nothing(cm, v):
     where = cm.vector(np.arange(8) == 0)
     index = cm.vector(BACKWARD)
-    sv.get(v, index, where=where)
-    sv.permute(v, index, into=v, where=where)
+    sv.get(v, index, where=where, otherwise=0)
+    sv.scatter(v, index, into=v, where=where)
     assert [(e.messages, e.busiest) for e in cm.ledger.entries] == [(2, 1), (1, 1)]
 
 

@@ -9,7 +9,7 @@ import pytest
 import scanvec as sv
 import scanvec.plot
 
-MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.CM2, sv.CM5, sv.Hypercube, sv.Mesh2D)
+MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.CM2, sv.CM5, sv.HYPERCUBE, sv.MESH2D)
 
 
 def program(cm: sv.Simulated, n: int = 100) -> np.ndarray:
@@ -74,7 +74,7 @@ def test_exclusive_access_is_reported_with_primitive_and_phase():
         sv.get(v, cm.vector(np.zeros(8, int)))
     with cm.phase("some write one"):
         where = cm.vector(np.arange(8) < 3)
-        sv.send(v, cm.vector(np.zeros(8, int)), sv.ADD, v, where=where)
+        sv.send(v, cm.vector(np.zeros(8, int)), sv.ADD, into=v, where=where)
     assert [(c.phase, c.primitive, c.step, c.accesses) for c in cm.ledger.conflicts] == [
         ("everyone reads one", "get", 2, 8),
         ("some write one", "send", 3, 3),

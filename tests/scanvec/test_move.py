@@ -59,7 +59,7 @@ def test_indices_of_every_integer_dtype(dtype):
         got = sv.get(machine.vector(values), machine.vector(index))
         assert_same(got, values[index])
         zeros = machine.vector(np.zeros(128, np.int64))
-        assert_same(sv.send(got, machine.vector(index), sv.MAX, zeros).to_numpy()[index], values[index])
+        assert_same(sv.send(got, machine.vector(index), sv.MAX, into=zeros).to_numpy()[index], values[index])
 
 
 def test_the_context_hides_indices_that_are_out_of_range():
@@ -68,7 +68,7 @@ def test_the_context_hides_indices_that_are_out_of_range():
         where = machine.vector(np.array([False, True, False, False]))
         v, into = machine.vector(np.arange(4.0)), machine.vector(np.zeros(3))
         assert_same(sv.get(v, index, where=where, otherwise=np.nan), np.array([np.nan, 1, np.nan, np.nan]))
-        assert_same(sv.send(v, index, sv.ADD, into, where=where), np.array([0.0, 1, 0]))
+        assert_same(sv.send(v, index, sv.ADD, into=into, where=where), np.array([0.0, 1, 0]))
         nobody = machine.full(4, False, bool)
         assert_same(sv.get(machine.vector(np.zeros(0)), index, where=nobody, otherwise=7), np.full(4, 7.0))
 
@@ -82,7 +82,7 @@ def test_send_of_every_dtype(op, dtypes, move, data):
     record = of_dtypes(data.draw(words(len(index))), dtypes)
     machine = MACHINES[COMBINERS.index((op, dtypes)) % 5]  # by turns, for the time that it takes to compile
     i, context = machine.vector(index, np.int32), machine.vector(where, bool)
-    got = sv.send(load(machine, record), i, op, load(machine, into), where=context)
+    got = sv.send(load(machine, record), i, op, into=load(machine, into), where=context)
     for dtype in dtypes:
         assert_same(got[dtype], twins.send(op, record[dtype], index, into[dtype], where))
 
@@ -95,14 +95,14 @@ def test_send_on_every_machine(op, move, data):
     values = of_dtype(data.draw(words(len(index))), "int32")
     want = twins.send(op, values, index, into, [True] * len(index))
     for machine in MACHINES:
-        got = sv.send(machine.vector(values), machine.vector(index, np.int32), op, machine.vector(into))
+        got = sv.send(machine.vector(values), machine.vector(index, np.int32), op, into=machine.vector(into))
         assert_same(got, want)
 
 
 def test_what_is_sent_into_does_not_change():
     for machine in MACHINES:
         into = machine.vector(np.arange(3))
-        sv.send(machine.vector(np.array([9])), machine.vector(np.array([1])), sv.COPY, into)
+        sv.send(machine.vector(np.array([9])), machine.vector(np.array([1])), sv.COPY, into=into)
         assert_same(into, np.arange(3))
 
 
@@ -112,6 +112,6 @@ def test_vectors_longer_than_the_smallest_block():
     want = np.bincount(index, weights=values, minlength=17000).astype(np.int64)
     for machine in MACHINES:
         i = machine.vector(index)
-        got = sv.send(machine.vector(values), i, sv.ADD, machine.vector(np.zeros(17000, np.int64)))
+        got = sv.send(machine.vector(values), i, sv.ADD, into=machine.vector(np.zeros(17000, np.int64)))
         assert_same(got, want)
         assert_same(sv.get(got, i), want[index])

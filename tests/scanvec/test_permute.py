@@ -36,11 +36,11 @@ def test_permute_into_a_longer_or_shorter_vector_under_a_context(order, data):
     for machine in MACHINES:
         index = machine.vector(order, np.int32) * 2
         where = machine.vector(flags)
-        got = sv.permute(machine.vector(values), index, into=machine.vector(into), where=where)
+        got = sv.scatter(machine.vector(values), index, into=machine.vector(into), where=where)
         assert_same(got, want)
         # and back, from the longer vector into the shorter one
         i = machine.iota(len(got))
-        back = sv.permute(got, i // 2, into=machine.vector(values), where=i % 2 == 0)
+        back = sv.scatter(got, i // 2, into=machine.vector(values), where=i % 2 == 0)
         assert_same(back, want[::2])
 
 
@@ -99,7 +99,7 @@ def test_records_keep_their_structure(machine):
         (sv.append(record, record), [0, 1, 2, 0, 1, 2]),
         (sv.copy_scan(record), [0, 0, 0]),
         (copies, [0, 2, 2]),
-        (sv.send(record, backward, sv.COPY, record), [2, 1, 0]),
+        (sv.send(record, backward, sv.COPY, into=record), [2, 1, 0]),
     ]:
         assert isinstance(got, Particle)
         assert_same(got.mass, np.array([1.5, 2.5, 3.5])[order])

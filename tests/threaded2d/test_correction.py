@@ -8,10 +8,10 @@ from dt3d.predicates import work_array
 from dt3d.predicates.filtered2d import orient2d
 from dt3d.threaded2d import correction, dag, sequential
 from dt3d.threaded2d.compaction import compact
-from dt3d.threaded2d.costs import prepared
-from dt3d.threaded2d.plan import Options
+from dt3d.threaded2d.configuration import Options
+from dt3d.threaded2d.mesh import CHILD, NEIGHBOR, ROOTS, SOFT_LIMIT, USED
 from dt3d.threaded2d.steps import DONE
-from dt3d.threaded2d.store import CHILD, NEIGHBOR, ROOTS, SOFT_LIMIT, USED
+from dt3d.threaded2d.virtual_time.costs import prepared
 
 from .families import EVERY_SET, canonical
 
@@ -37,7 +37,7 @@ def _spoil(points, nodes, shared, state, edges, w):
 
 @pytest.mark.parametrize("name", EVERY_SET)
 def test_edges_flipped_at_random_are_flipped_back(name):
-    store, sites = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    store, sites = prepared(EVERY_SET[name](300), Options(method="sequential", order="random"))
     work = work_array(store.points)
     run = sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, work)
     assert run == DONE
@@ -60,9 +60,7 @@ def test_edges_flipped_at_random_are_flipped_back(name):
 
 
 def test_a_correction_without_room_grows_the_structure():
-    store, sites = prepared(
-        EVERY_SET["uniform"](300), Options("sequential", 1, "random", "dag", 2, "random", 0)
-    )
+    store, sites = prepared(EVERY_SET["uniform"](300), Options(method="sequential", order="random"))
     work = work_array(store.points)
     sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, work)
     used, rows = int(store.shared[USED, 0]), np.arange(len(store.points))

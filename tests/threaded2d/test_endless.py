@@ -10,24 +10,11 @@ import pytest
 
 from dt3d import InternalError
 from dt3d.predicates import work_array
-from dt3d.threaded2d import (
-    cavity,
-    correction,
-    dag,
-    flips,
-    optimistic,
-    pool,
-    sequential,
-    suspects,
-    virtual,
-    walk,
-)
-from dt3d.threaded2d.costs import Costs, prepared
-from dt3d.threaded2d.delaunay import _options
-from dt3d.threaded2d.plan import Options, Run, triangulate
-from dt3d.threaded2d.share import share
-from dt3d.threaded2d.steps import DONE, STOPPED
-from dt3d.threaded2d.store import (
+from dt3d.threaded2d import correction, dag, flips, illegal_edges, optimistic, pool, sequential
+from dt3d.threaded2d.configuration import Options, configured
+from dt3d.threaded2d.driver import Run, triangulate
+from dt3d.threaded2d.in_place import cavity, walk
+from dt3d.threaded2d.mesh import (
     CHILD,
     CRITICAL,
     LOCK,
@@ -39,7 +26,11 @@ from dt3d.threaded2d.store import (
     STOP,
     Store,
 )
+from dt3d.threaded2d.steps import DONE, STOPPED
 from dt3d.threaded2d.threads import together
+from dt3d.threaded2d.virtual_time import scheduler
+from dt3d.threaded2d.virtual_time.costs import Costs, prepared
+from dt3d.threaded2d.work_sharing import share
 
 from .families import EVERY_SET, uniform
 
@@ -59,7 +50,7 @@ KINDS = [
 
 def _run(method, threads, location, n=400):
     """A run that has not begun, of threads that lose patience within a second."""
-    options = Options(method, threads, "brio", location, 2, "random", 0)
+    options = Options(method=method, threads=threads, location=location)
     store, sites = prepared(uniform(n), options)
     if options.in_place:
         store = Store(store.points, store.nodes[0, :3], threads, ROOTS + 2 * len(store.points))
@@ -172,7 +163,7 @@ def _located(points, nodes, sites, w):
 
 def _half(n=300):
     """A store with half of its sites, and the other sites."""
-    store, sites = prepared(uniform(n), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    store, sites = prepared(uniform(n), Options(method="sequential", order="random"))
     half = len(sites.order) // 2
     w = work_array(store.points)
     some = share(sites.order[:half], np.array([0, half]))
@@ -245,10 +236,10 @@ def test_stars_that_do_not_close():
     q = int(nodes[f, 0])
     following = nodes[f, NEIGHBOR + 1] >> 2
     nodes[following, NEIGHBOR : NEIGHBOR + 3] = 4 * following
-    unlock, note = numba.njit(optimistic._unlock_star.py_func), numba.njit(suspects.note_star.py_func)
+    unlock, note = numba.njit(optimistic._unlock_star.py_func), numba.njit(illegal_edges.note_star.py_func)
     with pytest.raises(InternalError, match="does not close"):
         unlock(nodes, f)
-    notes = suspects.empty_notes(1)[0]
+    notes = illegal_edges.empty_notes(1)[0]
     with pytest.raises(InternalError, match="does not close"):
         note(nodes, store.shared, store.state, notes, 0, f, q)
     nodes[f, CHILD] = 2 * f  # it descends from itself
@@ -266,10 +257,10 @@ def test_virtual_time_ends_too(method, monkeypatch):
         store.nodes[:ROOTS, CHILD] = 0
         return store, sites
 
-    monkeypatch.setattr(virtual, "prepared", broken)
-    options = Options(method, 3, "random", "dag", 2, "random", 0)
+    monkeypatch.setattr(scheduler, "prepared", broken)
+    options = Options(method=method, threads=3, order="random")
     with pytest.raises(InternalError, match="round in circles"):
-        virtual.simulate(uniform(100), options, 2, Costs(6e-8, 4e-8, 2e-8))
+        scheduler.simulate(uniform(100), options, 2, Costs(6e-8, 4e-8, 2e-8))
 
 
 def test_virtual_time_of_a_lock_that_is_not_given_back(monkeypatch):
@@ -279,10 +270,10 @@ def test_virtual_time_of_a_lock_that_is_not_given_back(monkeypatch):
         store.shared[MOST_LOOKS, 0] = 0
         return store, sites
 
-    monkeypatch.setattr(virtual, "prepared", locked)
-    options = Options("optimistic", 3, "random", "dag", 2, "random", 0)
+    monkeypatch.setattr(scheduler, "prepared", locked)
+    options = Options(method="optimistic", threads=3, order="random")
     with pytest.raises(InternalError, match="wait for each other"):
-        virtual.simulate(uniform(100), options, 2, Costs(6e-8, 4e-8, 2e-8))
+        scheduler.simulate(uniform(100), options, 2, Costs(6e-8, 4e-8, 2e-8))
 
 
 @pytest.mark.parametrize("name", EVERY_SET)
@@ -298,7 +289,7 @@ def test_contended_runs_do_not_come_near(name, monkeypatch):
     monkeypatch.setattr(Run, "__init__", watched)
     points = EVERY_SET[name](200)
     for method, threads, location in KINDS[2:]:
-        options = _options(len(points), method, threads, "brio", location, 2, "random", 0)
+        options = configured(len(points), method=method, threads=threads, location=location, queue_length=2)
         triangulate(points, options.contended(2))
     for run in runs:
         assert (run.store.state[:, LOOKED] == 0).all()

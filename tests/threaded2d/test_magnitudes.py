@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from dt3d import threaded2d
+from dt3d.threaded2d.input_subdivision import SUBDIVISIONS, parts_of
 from dt3d.threaded2d.order import along_curve
-from dt3d.threaded2d.subdivision import SUBDIVISIONS, parts_of
 
 from .families import canonical
 from .test_triangulation import brute_force

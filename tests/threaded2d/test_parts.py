@@ -5,15 +5,16 @@ import numpy as np
 import pytest
 
 from dt3d.predicates import work_array
-from dt3d.threaded2d import dag, lanes, sequential
+from dt3d.threaded2d import dag, sequential
 from dt3d.threaded2d.atomics import padded
-from dt3d.threaded2d.costs import prepared
-from dt3d.threaded2d.plan import Options
+from dt3d.threaded2d.configuration import Options
+from dt3d.threaded2d.lookahead import interleaved
+from dt3d.threaded2d.mesh import END, NEXT, PART, SHARED_ROWS, STATE_COLUMNS
 from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
-from dt3d.threaded2d.share import PIECE, ahead_of_all, share, take
 from dt3d.threaded2d.steps import DONE
-from dt3d.threaded2d.store import END, NEXT, PART, SHARED_ROWS, STATE_COLUMNS
 from dt3d.threaded2d.threads import together
+from dt3d.threaded2d.virtual_time.costs import prepared
+from dt3d.threaded2d.work_sharing import PIECE, ahead_of_all, share, take
 
 from .families import EVERY_SET
 
@@ -85,19 +86,19 @@ def test_threads_at_both_ends_lose_nothing():
 
 @numba.njit
 def _through_lanes(points, nodes, hands, sites, w):
-    """The leaves of the sites by way of the lanes."""
+    """The leaves of the sites by way of the interleaved."""
     found = np.full(len(points), -1)
     begun = 0
     while True:
         for i in range(len(hands)):
-            if hands[i, lanes.LANE_SITE] == lanes.EMPTY and begun < len(sites):
-                lanes.start(points, nodes, hands, i, sites[begun], w)
+            if hands[i, interleaved.LANE_SITE] == interleaved.EMPTY and begun < len(sites):
+                interleaved.start(points, nodes, hands, i, sites[begun], w)
                 begun += 1
-        i, _ = lanes.advance(points, nodes, hands, w)
-        if i == lanes.EMPTY:
+        i, _ = interleaved.advance(points, nodes, hands, w)
+        if i == interleaved.EMPTY:
             return found
-        found[hands[i, lanes.LANE_SITE]] = hands[i, lanes.LANE_NODE]
-        hands[i, lanes.LANE_SITE] = lanes.EMPTY
+        found[hands[i, interleaved.LANE_SITE]] = hands[i, interleaved.LANE_NODE]
+        hands[i, interleaved.LANE_SITE] = interleaved.EMPTY
 
 
 @numba.njit
@@ -110,12 +111,12 @@ def _one_by_one(points, nodes, sites, w):
 
 @pytest.mark.parametrize("name", EVERY_SET)
 def test_lanes_lead_to_the_leaf_that_a_location_finds(name):
-    store, sites = prepared(EVERY_SET[name](300), Options("sequential", 1, "random", "dag", 2, "random", 0))
+    store, sites = prepared(EVERY_SET[name](300), Options(method="sequential", order="random"))
     half = len(sites.order) // 2
     some, others = share(sites.order[:half], np.array([0, half])), sites.order[half:]
     w = work_array(store.points)
     assert sequential.run(store.points, store.nodes, store.shared, store.state, some, 0, False, w) == DONE
-    hands = lanes.empty_lanes(1)[0]
+    hands = interleaved.empty_lanes(1)[0]
     found = _through_lanes(store.points, store.nodes, hands, others, w)
     np.testing.assert_array_equal(found, _one_by_one(store.points, store.nodes, others, w))
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from dt3d import threaded2d
-from dt3d.threaded2d import atomics, star
+from dt3d.threaded2d import atomics
+from dt3d.threaded2d.in_place import star
 from dt3d.threaded2d.threads import together
 
 from .families import uniform

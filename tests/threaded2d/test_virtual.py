@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from dt3d.threaded2d.costs import Costs
-from dt3d.threaded2d.plan import Options
-from dt3d.threaded2d.virtual import simulate
+from dt3d.threaded2d.configuration import Options
+from dt3d.threaded2d.virtual_time.costs import Costs
+from dt3d.threaded2d.virtual_time.scheduler import simulate
 
 from .families import EVERY_SET, uniform
 
@@ -15,7 +15,7 @@ PAPER_AT_4 = {"batch": 3.81, "circumcircle": 3.73, "optimistic": 3.98}
 
 
 def options(method, threads, **changes):
-    return Options(method, threads, "random", "dag", 1024, "random", 0, **changes)
+    return Options(method=method, threads=threads, order="random", queue_length=1024, **changes)
 
 
 @pytest.mark.parametrize("method", ["batch", "circumcircle", "optimistic", "pessimistic"])
@@ -59,6 +59,6 @@ def test_four_elements_come_within_a_fifth_of_the_paper():
 def test_errors():
     with pytest.raises(ValueError, match="elements must be 1 to 64, got 65"):
         simulate(uniform(10), options("optimistic", 2), 65, COSTS)
-    walking = Options("batch", 2, "brio", "walk", 64, "random", 0)
+    walking = Options(method="batch", threads=2, location="walk")
     with pytest.raises(ValueError, match="location='dag' only"):
         simulate(uniform(10), walking, 2, COSTS)

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...predicates import work_array
+from ...threaded2d.configuration import Options, queue_for
 from ...threaded2d.correction import correct
-from ...threaded2d.costs import measure, prepared
-from ...threaded2d.delaunay import queue_for
-from ...threaded2d.plan import Options, triangulate
-from ...threaded2d.store import ROOTS
-from ...threaded2d.virtual import simulate
+from ...threaded2d.driver import triangulate
+from ...threaded2d.mesh import ROOTS
+from ...threaded2d.virtual_time.costs import measure, prepared
+from ...threaded2d.virtual_time.scheduler import simulate
 from . import sets
 from .report import Row, publish
 
@@ -54,7 +54,9 @@ def threads_for(method: str, elements: int) -> int:
 def _options(
     method: str, threads: int, n: int, subdivision: str = "random", order: str = "random"
 ) -> Options:
-    return Options(method, threads, order, "dag", queue_for(n), subdivision, 0)
+    return Options(
+        method=method, threads=threads, order=order, queue_length=queue_for(n), subdivision=subdivision
+    )
 
 
 class _Set:

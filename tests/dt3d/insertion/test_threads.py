@@ -138,7 +138,7 @@ def test_progress_of_threads(yielding, monkeypatch):
     seen = []
     dt3d.Delaunay(SETS["uniform"], threads=4, callback=seen.append)
     assert [p.iteration for p in seen] == list(range(1, len(seen) + 1))
-    left = [p.open_faces for p in seen]
+    left = [p.remaining for p in seen]
     assert left == sorted(left, reverse=True)
     assert left[-1] == 0
     assert len(seen) > 3

@@ -2,96 +2,86 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ._stats import InsertionStatistics, Statistics
+from .._stats import InsertionStatistics, Progress, Statistics
+from .._status import one_line
+
+if TYPE_CHECKING:
+    import scanvec as sv
+
+    from .. import threaded2d
+    from ..delaunay import Delaunay
+
+
+def say(console: Console, text: str) -> None:
+    """Print a line with names of files, which may hold anything."""
+    console.print(one_line(text), markup=False, soft_wrap=True)
 
 
 class Growth:
-    """Prints one line an iteration, as the triangulation grows; to be passed as ``callback``."""
+    """Prints one line per iteration, as the triangulation grows; to be passed as ``callback``."""
 
     def __init__(self, console: Console, left: str = "open faces") -> None:
         self.console = console
         self.left = left
 
-    def __call__(self, progress: Any) -> None:
+    def __call__(self, progress: Progress) -> None:
         if progress.iteration == 1:
             self.console.print(f"[dim]iteration   tetrahedra {self.left:>12s}   seconds[/]")
         self.console.print(
-            f"{progress.iteration:9d} {progress.tetrahedra:12,} {progress.open_faces:12,} "
+            f"{progress.iteration:9d} {progress.tetrahedra:12,} {progress.remaining:12,} "
             f"{progress.seconds:9.2f}",
             highlight=False,
         )
 
 
-def stats_table(tri: Any, title: str) -> Table:
-    """The counts and times of a triangulation.
-
-    Parameters
-    ----------
-    tri : Delaunay
-    title : str
-
-    Returns
-    -------
-    rich.table.Table
-    """
+def stats_table(tri: Delaunay, title: str) -> Table:
+    """The counts and times of a triangulation."""
     stats = tri.stats
-    tetrahedra = len(tri.simplices)
-    table = Table(title=Text(title), show_header=False, title_justify="left")
-    table.add_column("what")
-    table.add_column("value", justify="right")
-    table.add_row("sites", f"{len(tri.points):,}")
-    table.add_row("duplicates", f"{len(tri.duplicates):,}")
-    table.add_row("tetrahedra", f"{tetrahedra:,}")
-    table.add_row("faces of the hull", f"{len(tri.convex_hull):,}")
-    table.add_section()
+    table = _sizes(tri, title, "tetrahedra", "faces")
     if isinstance(stats, InsertionStatistics):
         for name in ("walked", "tested", "created"):
             table.add_row(f"tetrahedra {name} per site", _ratio(getattr(stats, name), len(tri.points)))
     else:
-        _add_extrapolation(table, stats, tetrahedra)
+        _add_extrapolation(table, stats, len(tri.simplices))
     table.add_row("inconsistencies", f"{stats.inconsistencies:,}")
-    table.add_section()
-    for phase, seconds in stats.seconds.items():
-        style = "bold" if phase == "total" else None
-        table.add_row(f"seconds: {phase}", f"{seconds:.3f}", style=style)
-    return table
+    return _timed(table, stats.seconds)
 
 
-def plane_table(tri: Any, title: str) -> Table:
-    """The counts and times of a triangulation in the plane.
-
-    Parameters
-    ----------
-    tri : threaded2d.Delaunay
-    title : str
-
-    Returns
-    -------
-    rich.table.Table
-    """
+def plane_table(tri: threaded2d.Delaunay, title: str) -> Table:
+    """The counts and times of a triangulation in the plane."""
     stats = tri.stats
+    table = _sizes(tri, title, "triangles", "edges")
+    table.add_row("method", stats.method)
+    table.add_row("threads", f"{stats.threads}")
+    table.add_row("triangles visited per site", _ratio(stats.visited, len(tri.points)))
+    table.add_row("edges flipped per site", _ratio(stats.flips, len(tri.points)))
+    return _timed(table, stats.seconds)
+
+
+def _sizes(tri: Delaunay | threaded2d.Delaunay, title: str, simplices: str, facets: str) -> Table:
+    """A table with the numbers of sites and of what they make."""
     table = Table(title=Text(title), show_header=False, title_justify="left")
     table.add_column("what")
     table.add_column("value", justify="right")
     table.add_row("sites", f"{len(tri.points):,}")
     table.add_row("duplicates", f"{len(tri.duplicates):,}")
-    table.add_row("triangles", f"{len(tri.triangles):,}")
-    table.add_row("edges of the hull", f"{len(tri.convex_hull):,}")
+    table.add_row(simplices, f"{len(tri.simplices):,}")
+    table.add_row(f"{facets} of the hull", f"{len(tri.convex_hull):,}")
     table.add_section()
-    table.add_row("method", stats.method)
-    table.add_row("threads", f"{stats.threads}")
-    table.add_row("triangles visited per site", _ratio(stats.visited, len(tri.points)))
-    table.add_row("edges flipped per site", _ratio(stats.flips, len(tri.points)))
+    return table
+
+
+def _timed(table: Table, seconds: dict[str, float]) -> Table:
+    """The table with the seconds of each phase below it."""
     table.add_section()
-    for phase, seconds in stats.seconds.items():
-        style = "bold" if phase == "total" else None
-        table.add_row(f"seconds: {phase}", f"{seconds:.3f}", style=style)
+    for phase, spent in seconds.items():
+        table.add_row(f"seconds: {phase}", f"{spent:.3f}", style="bold" if phase == "total" else None)
     return table
 
 
@@ -104,17 +94,8 @@ def _add_extrapolation(table: Table, stats: Statistics, tetrahedra: int) -> None
     table.add_row("decided exactly", f"{stats.exact_decisions:,}")
 
 
-def ledger_table(ledger: Any) -> Table:
-    """What a simulated machine did, by phase, and in all; both again for the busiest processor of each step.
-
-    Parameters
-    ----------
-    ledger : scanvec.Ledger
-
-    Returns
-    -------
-    rich.table.Table
-    """
+def ledger_table(ledger: sv.Ledger) -> Table:
+    """What a simulated machine did, by phase and in all, and what its busiest processors did in each step."""
     table = Table(title="Steps of the simulated machine", title_justify="left")
     table.add_column("phase")
     for heading in ("steps", "elements", "busiest's", "messages", "busiest's"):

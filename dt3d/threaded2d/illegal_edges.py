@@ -19,7 +19,7 @@ from .._errors import InternalError
 from .._kernel_cache import cached_njit
 from .atomics import load_acquire
 from .atomics import store as atomic_store
-from .store import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
+from .mesh import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
 
 CAPACITY = 4096  # triangles that a thread can note: those of some 600 stars
 

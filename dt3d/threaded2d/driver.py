@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,18 +13,17 @@ import numpy as np
 from .._errors import InternalError
 from .._memory import require
 from ..predicates import work_array
-from . import batch, circumcircle, optimistic, pessimistic, sequential, star, steps
+from . import batch, circumcircle, optimistic, pessimistic, sequential, steps
 from .compaction import compact
+from .configuration import Options
 from .correction import correct
 from .first import first_triangle
-from .hands import empty_hands
-from .lanes import empty_lanes
-from .order import along_curve
-from .pool import empty_pool
-from .queue import empty_queue
-from .share import TAKEN, Sites, ahead_of_all, share
-from .statistics import Statistics
-from .store import (
+from .illegal_edges import empty_notes, noted
+from .in_place import star
+from .input_subdivision import insertion_order
+from .lookahead.interleaved import empty_lanes
+from .lookahead.located import empty_hands
+from .mesh import (
     ACCESSES,
     CHANGE_CYCLES,
     END,
@@ -47,45 +46,16 @@ from .store import (
     WAITS,
     Store,
 )
-from .subdivision import insertion_order
-from .suspects import empty_notes, noted
+from .order import along_curve
+from .pool import empty_pool
+from .queue import empty_queue
+from .statistics import Statistics
 from .threads import together
-
-METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
-ORDERS = ("brio", "random")
-LOCATIONS = ("dag", "walk")
+from .work_sharing import TAKEN, Sites, ahead_of_all, share
 
 # Bytes a site, as measured: what is written, and with what is only reserved.
 WRITTEN_IN_PLACE, RESERVED_IN_PLACE = 190, 210
 WRITTEN_WITH_HISTORY, RESERVED_WITH_HISTORY = 600, 800
-
-
-@dataclass(frozen=True)
-class Options:
-    """What to run, after "auto" and None have been replaced.
-
-    ``helping`` is the batch method's variant in which searching threads that find the queue full finish
-    locations; with ``stumble`` threads give way at random, once in so many chances.
-    """
-
-    method: str
-    threads: int
-    order: str
-    location: str
-    queue_length: int
-    subdivision: str
-    seed: int
-    helping: bool = False
-    stumble: int = 0
-
-    def contended(self, stumble: int, helping: bool = False) -> Options:
-        """The same with threads that give way at random, for tests."""
-        return replace(self, stumble=stumble, helping=helping)
-
-    @property
-    def in_place(self) -> bool:
-        """Whether the structure keeps no history."""
-        return self.location == "walk" and self.method in ("sequential", "optimistic")
 
 
 @dataclass
@@ -127,7 +97,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
         rows,
         options.order,
         options.subdivision,
-        parts_with_sites(options),
+        options.parts,
         options.seed,
         apart=options.method != "batch",
     )
@@ -137,7 +107,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     begun = time.perf_counter()
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
-    store.shared[STUMBLE, 0] = options.stumble
+    store.shared[STUMBLE, 0] = options.yield_every
     if options.method == "circumcircle" and options.threads > 1:
         order, bounds = ahead_of_all(order, bounds, circumcircle.ahead(len(order), options.threads))
     sites = share(order, bounds)
@@ -162,11 +132,6 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     seconds["extraction"] = time.perf_counter() - begun
     stats = _statistics(run, seconds, per_cycle)
     return Outcome(triangles, neighbors, maker, inserted_by, duplicates, stats)
-
-
-def parts_with_sites(options: Options) -> int:
-    """How many threads get sites: with the batch method all but the specialised one."""
-    return options.threads - 1 if options.method == "batch" else options.threads
 
 
 class Run:

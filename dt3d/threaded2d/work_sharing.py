@@ -15,7 +15,7 @@ import numpy as np
 from .._kernel_cache import cached_njit
 from ..predicates.borrowed import borrowed
 from .atomics import add, load, padded
-from .store import END, NEXT, PART
+from .mesh import END, NEXT, PART
 
 PIECE = 512  # sites
 

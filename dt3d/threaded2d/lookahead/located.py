@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from .lanes import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
+from ..._kernel_cache import cached_njit
+from ..in_place.walk import walk_history
+from ..mesh import HINT, IN_HAND, NEXT, VISITED
+from ..queue import ITEM_NODE, ITEM_SITE
+from ..work_sharing import next_site
+from .interleaved import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
 from .prefetch import prefetch_around, prefetch_beyond
-from .queue import ITEM_NODE, ITEM_SITE
-from .share import next_site
-from .store import HINT, IN_HAND, NEXT, VISITED
-from .walk import walk_history
 
 AT_ONCE = 8
 

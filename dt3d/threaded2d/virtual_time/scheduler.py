@@ -17,23 +17,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from ..predicates import work_array
-from ..predicates.borrowed import borrowed
-from . import batch, circumcircle, optimistic
+from ..._kernel_cache import cached_njit
+from ...predicates import work_array
+from ...predicates.borrowed import borrowed
+from .. import batch, circumcircle, optimistic
+from ..configuration import Options
+from ..dag import locate
+from ..flips import insert
+from ..illegal_edges import empty_notes
+from ..lookahead.interleaved import empty_lanes
+from ..lookahead.located import empty_hands
+from ..mesh import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
+from ..patience import STEP, strive
+from ..pool import empty_pool
+from ..queue import empty_queue
+from ..steps import CHANGED, FINISHED, WAITING
+from ..work_sharing import borrowed_sites, next_site
 from .costs import Costs, prepared
-from .dag import locate
-from .flips import insert
-from .hands import empty_hands
-from .lanes import empty_lanes
-from .patience import STEP, strive
-from .plan import Options
-from .pool import empty_pool
-from .queue import empty_queue
-from .share import borrowed_sites, next_site
-from .steps import CHANGED, FINISHED, WAITING
-from .store import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
-from .suspects import empty_notes
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
 _METHODS = {

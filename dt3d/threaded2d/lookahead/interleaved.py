@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import load_acquire
-from .dag import child_of
-from .geometry import root_of
+from ..._errors import InternalError
+from ..._kernel_cache import cached_njit
+from ..atomics import load_acquire
+from ..dag import child_of
+from ..geometry import root_of
+from ..mesh import CHILD
 from .prefetch import prefetch
-from .store import CHILD
 
 LANES = 8
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from ..predicates.filtered2d import orient2d
-from .atomics import load_acquire
-from .dag import locate
-from .geometry import side
-from .store import CHILD, INFINITE, NEIGHBOR
+from ..._kernel_cache import cached_njit
+from ...predicates.filtered2d import orient2d
+from ..atomics import load_acquire
+from ..dag import locate
+from ..geometry import side
+from ..mesh import CHILD, INFINITE, NEIGHBOR
 
 
 @cached_njit(forceinline=True)

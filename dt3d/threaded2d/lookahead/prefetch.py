@@ -8,9 +8,9 @@ from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
-from .atomics import element
-from .store import NEIGHBOR
+from ..._kernel_cache import cached_njit
+from ..atomics import element
+from ..mesh import NEIGHBOR
 
 
 @intrinsic

@@ -6,13 +6,14 @@ import pytest
 
 from dt3d import threaded2d
 from dt3d.predicates import work_array
-from dt3d.threaded2d import pool, suspects
+from dt3d.threaded2d import illegal_edges, pool
 from dt3d.threaded2d.compaction import compact
+from dt3d.threaded2d.configuration import Options
 from dt3d.threaded2d.correction import _illegal
-from dt3d.threaded2d.costs import prepared
+from dt3d.threaded2d.driver import Run
+from dt3d.threaded2d.mesh import CHILD, EXCEPTIONS, NEIGHBOR, NOTED, ROOTS, STUMBLE, SUSPECT, USED
 from dt3d.threaded2d.order import along_curve
-from dt3d.threaded2d.plan import Options, Run
-from dt3d.threaded2d.store import CHILD, EXCEPTIONS, NEIGHBOR, NOTED, ROOTS, STUMBLE, SUSPECT, USED
+from dt3d.threaded2d.virtual_time.costs import prepared
 
 from .families import DISTRIBUTIONS, EVERY_SET, canonical
 
@@ -24,7 +25,7 @@ blocker_of, wait_for, still_waits, publish, retire = (
 
 def _three_threads():
     """A store whose first triangle every site is in conflict with or a vertex of, and an empty pool."""
-    store, _ = prepared(EVERY_SET["uniform"](20), Options("circumcircle", 3, "random", "dag", 2, "random", 0))
+    store, _ = prepared(EVERY_SET["uniform"](20), Options(method="circumcircle", threads=3, order="random"))
     return store, pool.empty_pool(3), work_array(store.points)
 
 
@@ -81,7 +82,7 @@ class _Watched(Run):
         store = self.store
         leaves = np.flatnonzero(store.nodes[: store.shared[USED, 0], CHILD] < 0)
         beside = np.array(_illegal_edges(store.points, store.nodes, leaves, self.work[0])).reshape(-1, 2)
-        below = _below(store, suspects.noted(store, self.notes))
+        below = _below(store, illegal_edges.noted(store, self.notes))
         assert np.isin(below, leaves).all()
         assert len(np.unique(below)) == len(below)
         assert np.isin(beside, below).any(axis=1).all()
@@ -104,7 +105,7 @@ def test_every_illegal_edge_is_beside_what_was_noted(name):
 
 def _run(kind, points, threads, seed):
     """A run under contention, without a head start."""
-    options = Options("circumcircle", threads, "random", "dag", 2, "random", seed)
+    options = Options(method="circumcircle", threads=threads, order="random", seed=seed)
     store, sites = prepared(points, options)
     store.shared[STUMBLE, 0] = 2 if threads > 1 else 0
     run = kind(options, store, sites)
@@ -115,7 +116,7 @@ def _run(kind, points, threads, seed):
 def _below(store, origins):
     used = int(store.shared[USED, 0])
     leaves = np.empty(used, np.int32)
-    count = suspects.leaves_below(
+    count = illegal_edges.leaves_below(
         store.nodes, origins, np.zeros(used, np.bool_), np.empty(used, np.int32), leaves
     )
     return leaves[:count]
@@ -135,14 +136,14 @@ class _Crowded(Run):
     full = 0
 
     def correct(self):
-        if (self.store.state[:, NOTED] > suspects.CAPACITY).any():
+        if (self.store.state[:, NOTED] > illegal_edges.CAPACITY).any():
             self.full += 1
-            np.testing.assert_array_equal(suspects.noted(self.store, self.notes), np.arange(ROOTS))
+            np.testing.assert_array_equal(illegal_edges.noted(self.store, self.notes), np.arange(ROOTS))
         super().correct()
 
 
 def test_where_there_is_no_room_for_notes_everything_is_corrected(monkeypatch):
-    monkeypatch.setattr(suspects, "CAPACITY", 5)
+    monkeypatch.setattr(illegal_edges, "CAPACITY", 5)
     points = EVERY_SET["uniform"](300)
     want = canonical(threaded2d.Delaunay(points, method="sequential").triangles)
     full = 0

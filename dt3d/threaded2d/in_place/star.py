@@ -6,15 +6,11 @@ the order, so that threads need not ask each other for memory.
 
 from __future__ import annotations
 
-from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import TURNS, load, store_release, wait_a_little
-from .cavity import BUSY, claim, give_back
-from .patience import NAP, STEP, strive
-from .share import borrowed_sites, take
-from .steps import DONE, STOPPED
-from .store import (
+from ..._errors import InternalError
+from ..._kernel_cache import cached_njit
+from ...predicates.borrowed import borrowed
+from ..atomics import TURNS, load, store_release, wait_a_little
+from ..mesh import (
     CHILD,
     END,
     FLIPS,
@@ -29,6 +25,10 @@ from .store import (
     VISITED,
     stumble,
 )
+from ..patience import NAP, STEP, strive
+from ..steps import DONE, STOPPED
+from ..work_sharing import borrowed_sites, take
+from .cavity import BUSY, claim, give_back
 from .walk import walk
 
 AT_ONCE = 4  # attempts before a thread that does not get its triangles gives way

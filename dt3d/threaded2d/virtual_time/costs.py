@@ -7,17 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from ..predicates import work_array
-from ..predicates.borrowed import borrowed
-from . import sequential
-from .first import first_triangle
-from .order import along_curve
-from .plan import Options, parts_with_sites
-from .pool import touches
-from .share import Sites, share
-from .steps import now
-from .store import (
+from ..._kernel_cache import cached_njit
+from ...predicates import work_array
+from ...predicates.borrowed import borrowed
+from .. import sequential
+from ..configuration import Options
+from ..first import first_triangle
+from ..input_subdivision import insertion_order
+from ..mesh import (
     CHANGE_CYCLES,
     CHILD,
     FLIPS,
@@ -28,7 +25,10 @@ from .store import (
     VISITED,
     Store,
 )
-from .subdivision import insertion_order
+from ..order import along_curve
+from ..pool import touches
+from ..steps import now
+from ..work_sharing import Sites, share
 
 # Not measured, but of the usual size on today's processors: seconds.
 QUEUE = 50e-9  # elements put or taken together: a cache line from another core, a compare-and-swap
@@ -73,8 +73,7 @@ def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
-    parts = parts_with_sites(options)
-    order, bounds = insertion_order(rows, options.order, options.subdivision, parts, options.seed)
+    order, bounds = insertion_order(rows, options.order, options.subdivision, options.parts, options.seed)
     first, order, bounds = first_triangle(rows, order, bounds)
     store = Store(rows, first, options.threads, 24 * len(rows) + 4096 * options.threads)
     return store, share(order, bounds)
@@ -97,7 +96,7 @@ def _tests(points, nodes, leaves, sites, rounds, w):
 
 def measure(points: np.ndarray, order: str = "random", repeats: int = 3) -> Costs:
     """The costs of these points, float64 (n, 2), by the median of sequential runs."""
-    options = Options("sequential", 1, order, "dag", 2, "random", 0)
+    options = Options(method="sequential", order=order)
     rng = np.random.default_rng(0)
     found = []
     for _ in range(repeats):
