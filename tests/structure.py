@@ -94,7 +94,16 @@ def lines(function: Function) -> int:
 
 def kernels(source: Source) -> set[Function]:
     """The functions that numba compiles, and those within them: their types are inferred."""
-    outer = {f for f in source.functions() if any(_decorator(node) in COMPILED for node in f.decorator_list)}
+    own = {
+        target.id
+        for node in ast.walk(source.tree)
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call)
+        for target in node.targets
+        if isinstance(target, ast.Name) and _decorator(node.value) in COMPILED
+    }
+    outer = {
+        f for f in source.functions() if {_decorator(node) for node in f.decorator_list} & (COMPILED | own)
+    }
     return {inner for f in outer for inner in ast.walk(f) if isinstance(inner, Function)}
 
 

@@ -43,11 +43,11 @@ ENGINES = {
     "dt3d/threaded2d": "threaded2d",
     "dt3d/predicates": "predicates",
     "dt3d/ordering": "ordering",
-    "dt3d/_numba": "numba",
+    "dt3d/_numba": "numba_tools",
 }
 
 # arrays of the insertion in space, whose layout one module knows
-ARRAYS = {"mesh", "spheres", "radii", "labels", "rows", "slots", "tetrahedra"}
+ARRAYS = {"mesh", "tetrahedra", "sites", "labels", "spheres", "radii", "rows"}
 LAYOUT = "dt3d/insertion/mesh.py"
 
 
@@ -195,8 +195,13 @@ def typed(self, value: Any, pairs: dict[str, "Any"], Anything: int) -> Any:
 def compiled(context, a: int) -> int:
     def codegen(b): ...
 
+accessor = cached_njit(inline="always")
+
 @numba.njit(cache=True)
 def kernel(a): ...
+
+@accessor
+def word(a): ...
 
 class Long:
     @staticmethod
@@ -217,9 +222,10 @@ def test_what_the_helpers_count():
         "compiled": (2, 2),
         "codegen": (1, 1),
         "kernel": (1, 1),
+        "word": (1, 1),
         "long": (1, 4),
     }
-    assert {function.name for function in kernels(bad)} == {"compiled", "codegen", "kernel"}
+    assert {function.name for function in kernels(bad)} == {"compiled", "codegen", "kernel", "word"}
     assert [untyped(function) for function in kernels(bad) if function.name == "compiled"] == [["context"]]
     modules = {"p.bad", "p.other", "p.other._module"}
     taken = ["p.other._hidden", "p.other._module._own", "p.other._secret"]
