@@ -47,7 +47,7 @@ ENGINES = {
 }
 
 # arrays of the insertion in space, whose layout one module knows
-ARRAYS = {"mesh", "tetrahedra", "sites", "labels", "spheres", "radii", "rows"}
+ARRAYS = {"mesh", "tetrahedra", "sites", "labels", "spheres", "radii"}
 LAYOUT = "dt3d/insertion/mesh.py"
 
 
