@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._kernel_cache import cached_njit
+from ._numba.kernel_cache import cached_njit
 from ._topology import OUTSIDE
 from .predicates.filtered import orient3d
 from .predicates.filtered2d import orient2d

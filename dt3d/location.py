@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from ._compiling import announce_compilation
 from ._errors import InternalError
 from ._input import check_queries
-from ._kernel_cache import cached_njit
 from ._memory import room_for_threads
+from ._numba.announce import announce_compilation
+from ._numba.cores import available_cores
+from ._numba.kernel_cache import cached_njit
 from ._results import check_complex, check_range, frozen
 from ._star import find_beside, side_of_facet
 from ._topology import OUTSIDE
@@ -107,7 +108,7 @@ class Locator:
         check_complex(sites, self.simplices, self.neighbors)
         announce_compilation()
         self.low, self.high = sites.min(axis=0), sites.max(axis=0)
-        threads = os.cpu_count() or 1
+        threads = available_cores()
         # predicates take rows of one array, so every thread has a row for the point at hand
         self.rows = np.concatenate([sites, np.empty((threads, sites.shape[1]))])
         self.works = [work_array(sites) for _ in range(threads)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import platform
 from collections.abc import Sequence
 from datetime import date
@@ -14,6 +13,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from .. import _output as output
+from .._numba.cores import available_cores
 from .rounds import Measured
 
 if TYPE_CHECKING:
@@ -39,8 +39,7 @@ def written(out: Path) -> tuple[Path, Path]:
 
 def machine() -> str:
     """The day, the processor and its cores, in words."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return f"{date.today().isoformat()}, {_processor()}, {cores} cores"
+    return f"{date.today().isoformat()}, {_processor()}, {available_cores()} cores"
 
 
 def _processor() -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numba
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from ..predicates.perturbed import inside, orientation_with
 from .layout import INFINITE
 

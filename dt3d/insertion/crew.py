@@ -7,7 +7,6 @@ callback and gets the interrupts.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 
@@ -44,13 +43,6 @@ PIECE = 1 << 15  # rows of an array that are worth a task
 MOST_GROWTHS = 3
 MARGIN = 8  # facets that have room in the scratch memory, but are not used
 PATIENCE = 0.05  # seconds between two looks at the progress
-
-
-def available_cores() -> int:
-    """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 class Crew:

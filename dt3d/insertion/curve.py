@@ -8,7 +8,7 @@ pieces becomes the inside of one.
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 
 
 @cached_njit(nogil=True, error_model="numpy")

@@ -15,11 +15,11 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
+from .._numba.prefetch import prefetch
 from .conflict import conflicts
 from .layout import DEAD, INFINITE
 from .ownership import owns, owns_all
-from .prefetch import prefetch
 from .spheres import flat, round_spheres
 from .star import NARROW, link_narrow, link_wide, number_vertices
 from .walk import walk

@@ -10,8 +10,9 @@ import numpy as np
 
 from .._errors import DegenerateInputError
 from .._memory import require, room_for_threads
+from .._numba.cores import available_cores
 from .compaction import count_finite, number_finite, write_finite
-from .crew import LEAST_PIECE, Crew, available_cores
+from .crew import LEAST_PIECE, Crew
 from .first import first_tetrahedron
 from .kernel import FRESH, FRESH_END
 from .layout import DEAD, MOST_SLOTS, aligned

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .curve import hilbert_keys
 
 ROUND_BITS = 2  # a site is in the last round unless as many bits of its hash are zero, and so on

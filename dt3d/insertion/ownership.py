@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import numba
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .layout import INFINITE
 
 

@@ -37,7 +37,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from ..predicates.filtered import orient3d
 
 U = 2.0**-53

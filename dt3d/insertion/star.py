@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numba
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .layout import INFINITE
 
 NARROW = 6  # a star of up to 2^6 vertices is linked through a table of all edges

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numba
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from ..predicates.filtered import ORIENT3D_BOUND, orient3d
 from .layout import INFINITE
 from .ownership import owns, owns_one

@@ -11,14 +11,14 @@ The specialised thread knows which sites come next, and asks for their leaves wh
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import cycles
+from .._numba.atomics import cycles
+from .._numba.kernel_cache import cached_njit
+from .._numba.prefetch import prefetch
+from .._numba.unowned import unowned
 from .dag import descend
 from .flips import insert
 from .in_place.walk import walk_history
 from .lookahead.located import AT_ONCE, locate_one, prepare
-from .lookahead.prefetch import prefetch
 from .mesh import (
     AT,
     CHANGE_CYCLES,
@@ -33,7 +33,7 @@ from .mesh import (
 from .patience import NAP, STEP, strive
 from .queue import ITEM_NODE, ITEM_SITE, fill_of, get, put
 from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, LOOKS, WAITING, pause, verdict
-from .work_sharing import borrowed_sites
+from .work_sharing import unowned_sites
 
 
 @cached_njit(forceinline=True)
@@ -98,9 +98,9 @@ def specialised_step(points, nodes, shared, state, cells, hands, me, walking, w)
 @cached_njit(nogil=True)
 def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, walking, helping, w):
     """A searching thread until its sites are in the queue; `DONE`, or why it came back before."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, cells, w = borrowed_sites(sites), borrowed(cells), borrowed(w)
-    lanes, hands = borrowed(lanes), borrowed(hands)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, cells, w = unowned_sites(sites), unowned(cells), unowned(w)
+    lanes, hands = unowned(lanes), unowned(hands)
     waiting, effort = 0, 0
     begun = cycles()
     while True:
@@ -117,8 +117,8 @@ def run_searching(points, nodes, shared, state, sites, me, cells, lanes, hands, 
 @cached_njit(nogil=True)
 def run_specialised(points, nodes, shared, state, me, cells, hands, walking, w):
     """The specialised thread until all sites are inserted; `DONE`, or why it came back before."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    cells, hands, w = borrowed(cells), borrowed(hands), borrowed(w)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    cells, hands, w = unowned(cells), unowned(hands), unowned(w)
     waiting, effort = 0, 0
     begun = cycles()
     while True:

@@ -16,10 +16,10 @@ swaps. The paper makes up for those in the end. Here all threads pause as soon a
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
+from .._numba.atomics import TURNS, cycles, load, load_acquire, wait_a_little
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from ..predicates.filtered2d import orient2d
-from .atomics import TURNS, cycles, load, load_acquire, wait_a_little
 from .dag import descend
 from .flips import flip, illegal, subdivide
 from .illegal_edges import note_star
@@ -73,7 +73,7 @@ from .steps import (
     spend,
     verdict,
 )
-from .work_sharing import borrowed_sites
+from .work_sharing import unowned_sites
 
 HEAD_START = 1024
 
@@ -240,9 +240,9 @@ def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alon
 
     The others begin when thread 0 has inserted ``alone`` sites.
     """
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, pool, w = borrowed_sites(sites), borrowed(pool), borrowed(w)
-    notes, lanes, hands = borrowed(notes), borrowed(lanes), borrowed(hands)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, pool, w = unowned_sites(sites), unowned(pool), unowned(w)
+    notes, lanes, hands = unowned(notes), unowned(lanes), unowned(hands)
     waiting, effort = 0, 0
     while me > 0 and load(state, (0, INSERTED)) < alone:
         reason = verdict(shared, True, True)

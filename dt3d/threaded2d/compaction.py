@@ -9,9 +9,9 @@ from functools import partial
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
+from .._numba.threads import run_short_tasks
 from .mesh import CHILD, NEIGHBOR
-from .threads import briefly
 
 PIECE_BITS = 14  # of a node's number within its piece
 
@@ -55,11 +55,11 @@ def compact(
     pieces = -(-used >> PIECE_BITS)
     threads = min(threads, pieces)
     number, counts = np.empty(used, np.int32), np.empty(pieces, np.int32)
-    briefly([partial(_number, nodes, used, k, threads, number, counts) for k in range(threads)])
+    run_short_tasks([partial(_number, nodes, used, k, threads, number, counts) for k in range(threads)])
     before = np.cumsum(counts, dtype=np.int32) - counts
     m = int(counts.sum())
     triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
     maker = np.empty(m, np.int16)
     out = (number, before, site, triangles, neighbors, maker)
-    briefly([partial(_collect, nodes, used, k, threads, *out) for k in range(threads)])
+    run_short_tasks([partial(_collect, nodes, used, k, threads, *out) for k in range(threads)])
     return triangles, neighbors, maker

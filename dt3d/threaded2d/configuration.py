@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
+
+from .._numba.cores import available_cores
 
 METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
 ORDERS = ("brio", "random")
@@ -58,7 +59,7 @@ def configured(
     seed: int = 0,
 ) -> Options:
     """What is run for n sites where None or "auto" was given."""
-    processors = min(os.cpu_count() or 1, MOST_THREADS)
+    processors = min(available_cores(), MOST_THREADS)
     if method == "auto":
         count = threads or (processors if n > WORTH_THREADS else 1)
         return Options(

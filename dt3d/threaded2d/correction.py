@@ -12,14 +12,14 @@ from functools import partial
 import numpy as np
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
+from .._numba.kernel_cache import cached_njit
+from .._numba.threads import run_threads
+from .._numba.unowned import unowned
 from .flips import flip
 from .illegal_edges import leaves_below
 from .in_place.cavity import in_conflict
 from .mesh import CHILD, INFINITE, NEIGHBOR, USED, Store
 from .steps import GO_ON, verdict
-from .threads import together
 
 
 @cached_njit
@@ -49,8 +49,8 @@ def _flip_illegal(points, nodes, shared, state, edges, w):
 
     There may be quadratically many; in one call no more than there is room for their triangles.
     """
-    points, nodes, shared = borrowed(points), borrowed(nodes), borrowed(shared)
-    state, w = borrowed(state), borrowed(w)
+    points, nodes, shared = unowned(points), unowned(nodes), unowned(shared)
+    state, w = unowned(state), unowned(w)
     top, flips = len(edges), 0
     stack = np.empty(2 * top + 4, np.int64)
     stack[:top] = edges
@@ -93,7 +93,7 @@ def correct(store: Store, origins: np.ndarray, work: np.ndarray, stop: Callable[
     flips = 0
     while len(edges):
         task = partial(_flip_illegal, store.points, store.nodes, store.shared, store.state, edges, work)
-        ((more, edges),) = together([task], stop)
+        ((more, edges),) = run_threads([task], stop)
         flips += more
         if flips > most:
             msg = "the correction of a 2D triangulation does not end"

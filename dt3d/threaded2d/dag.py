@@ -8,8 +8,8 @@ there are is in a structure that is broken.
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import load_acquire
+from .._numba.atomics import load_acquire
+from .._numba.kernel_cache import cached_njit
 from .geometry import root_of, side
 from .mesh import CHILD
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from .._compiling import announce_compilation
 from .._input import check_points, check_seed, exactly_scaled, word_of
+from .._numba.announce import announce_compilation
 from .._results import Names, Result, check_array, check_complex, check_range
 from .configuration import LOCATIONS, METHODS, MOST_THREADS, ORDERS, configured
 from .driver import triangulate

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +11,8 @@ import numpy as np
 
 from .._errors import InternalError
 from .._memory import require
+from .._numba.cores import available_cores
+from .._numba.threads import run_threads
 from ..predicates import work_array
 from . import batch, circumcircle, optimistic, pessimistic, sequential, steps
 from .compaction import compact
@@ -50,7 +51,6 @@ from .order import along_curve
 from .pool import empty_pool
 from .queue import empty_queue
 from .statistics import Statistics
-from .threads import together
 from .work_sharing import TAKEN, Sites, ahead_of_all, share
 
 # Bytes a site, as measured: what is written, and with what is only reserved.
@@ -88,7 +88,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     seconds = {}
     begun = time.perf_counter()
     # what never waits gains nothing from more threads than processors
-    busy = min(options.threads, os.cpu_count() or 1)
+    busy = min(options.threads, available_cores())
     site, duplicates = along_curve(points, busy)
     if options.order == "random":
         site = np.sort(site)
@@ -167,7 +167,7 @@ class Run:
         Each turn has inserted a site at least, or leaves room for half as many nodes again.
         """
         while True:
-            results = together([self._timed(k) for k in range(self.options.threads)], self.stop)
+            results = run_threads([self._timed(k) for k in range(self.options.threads)], self.stop)
             if steps.FULL in results:
                 self.store.grow()
             elif steps.OPEN_SWAPS in results:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import store_release
+from .._numba.atomics import store_release
+from .._numba.kernel_cache import cached_njit
 from .geometry import conflicts
 from .mesh import CHILD, FLIPS, LOCK, NEIGHBOR, fresh
 

@@ -14,9 +14,9 @@ from __future__ import annotations
 
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
+from .._numba.noinline import call_noinline
 from ..predicates.filtered2d import in_circle, orient2d
-from ..predicates.outlined import call_outlined
 from .mesh import INFINITE
 
 
@@ -51,7 +51,7 @@ def _inside_tied(points, a, b, c, q, w):
 
 @intrinsic
 def _call_inside_tied(typingctx, points, a, b, c, q, w):
-    return call_outlined(typingctx, _inside_tied, (points, a, b, c, q, w))
+    return call_noinline(typingctx, _inside_tied, (points, a, b, c, q, w))
 
 
 @cached_njit
@@ -70,7 +70,7 @@ def _conflicts_with_ghost(points, a, b, q, w):
 
 @intrinsic
 def _call_conflicts_with_ghost(typingctx, points, a, b, q, w):
-    return call_outlined(typingctx, _conflicts_with_ghost, (points, a, b, q, w))
+    return call_noinline(typingctx, _conflicts_with_ghost, (points, a, b, q, w))
 
 
 @cached_njit(forceinline=True)
@@ -100,7 +100,7 @@ def _side_of_ray(points, s0, s1, s2, p, q, w):
 
 @intrinsic
 def _call_side_of_ray(typingctx, points, s0, s1, s2, p, q, w):
-    return call_outlined(typingctx, _side_of_ray, (points, s0, s1, s2, p, q, w))
+    return call_noinline(typingctx, _side_of_ray, (points, s0, s1, s2, p, q, w))
 
 
 @cached_njit(forceinline=True)

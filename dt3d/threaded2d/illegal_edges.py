@@ -16,9 +16,9 @@ from __future__ import annotations
 import numpy as np
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import load_acquire
-from .atomics import store as atomic_store
+from .._numba.atomics import load_acquire
+from .._numba.atomics import store as atomic_store
+from .._numba.kernel_cache import cached_njit
 from .mesh import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
 
 CAPACITY = 4096  # triangles that a thread can note: those of some 600 stars

@@ -21,9 +21,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
 from .._memory import require
-from .atomics import add, give_way, padded
+from .._numba.atomics import add, give_way, padded
+from .._numba.kernel_cache import cached_njit
 
 INFINITE = -1
 ROOTS = 4

@@ -9,9 +9,9 @@ holds anything.
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import TURNS, cycles, store_release, wait_a_little
+from .._numba.atomics import TURNS, cycles, store_release, wait_a_little
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from .dag import descend, locate
 from .flips import insert
 from .in_place.cavity import BUSY, claim, give_back
@@ -35,7 +35,7 @@ from .mesh import (
 )
 from .patience import GIVING_WAY, NAP, strive
 from .steps import CHANGED, DONE, FINISHED, GO_ON, LOCATED, WAITING, spend, verdict
-from .work_sharing import borrowed_sites, next_site
+from .work_sharing import next_site, unowned_sites
 
 # phases: next site, exclusive access, change
 BEGIN, CLAIM, CHANGE = range(3)
@@ -93,9 +93,9 @@ def step(points, nodes, shared, state, sites, held, cavity, rim, me, w):
 @cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, scratch, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, w = borrowed_sites(sites), borrowed(w)
-    held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, w = unowned_sites(sites), unowned(w)
+    held, cavity, rim = unowned(scratch[0]), unowned(scratch[1]), unowned(scratch[2])
     waiting, effort = 0, 0
     begun = cycles()
     while True:

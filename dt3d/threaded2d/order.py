@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from .._input import first_copies
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .sorting import sort_runs
 
 SMALLEST_ROUND = 64

@@ -19,8 +19,8 @@ as long as it likes. What holds of waits instead:
 from __future__ import annotations
 
 from .._errors import InternalError
-from .._kernel_cache import cached_njit
-from .atomics import load
+from .._numba.atomics import load
+from .._numba.kernel_cache import cached_njit
 from .mesh import FLIPS, INSERTED, LOOKED, MOST_LOOKS, NEXT, SEEN
 
 # effort, in units that take 8 ns or more

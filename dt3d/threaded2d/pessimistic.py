@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import compare_and_swap, cycles, give_way, load, release
+from .._numba.atomics import compare_and_swap, cycles, give_way, load, release
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from .dag import descend
 from .flips import insert
 from .in_place.walk import walk_history
@@ -24,14 +24,14 @@ from .mesh import (
 )
 from .patience import GIVING_WAY, strive
 from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
-from .work_sharing import borrowed_sites, next_site
+from .work_sharing import next_site, unowned_sites
 
 
 @cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, w = borrowed_sites(sites), borrowed(w)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, w = unowned_sites(sites), unowned(w)
     effort = 0
     begun = cycles()
     while True:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from .atomics import acquire, load, load_acquire, release, store, store_release
+from .._numba.atomics import acquire, load, load_acquire, release, store, store_release
+from .._numba.kernel_cache import cached_njit
 from .geometry import conflicts
 from .mesh import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from .atomics import compare_and_swap, load, load_acquire, store_release
+from .._numba.atomics import compare_and_swap, load, load_acquire, store_release
+from .._numba.kernel_cache import cached_njit
 from .mesh import HEAD, TAIL
 
 # columns of `cells`, and the first two of elements in hand

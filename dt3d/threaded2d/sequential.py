@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import cycles
+from .._numba.atomics import cycles
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from .flips import insert
 from .mesh import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
 from .steps import DONE, GO_ON, find, spend, verdict
-from .work_sharing import borrowed_sites, next_site
+from .work_sharing import next_site, unowned_sites
 
 
 @cached_njit(nogil=True)
 def run(points, nodes, shared, state, sites, me, walking, w):
     """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, w = borrowed_sites(sites), borrowed(w)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, w = unowned_sites(sites), unowned(w)
     begun = cycles()
     while True:
         reason = verdict(shared, True, True)

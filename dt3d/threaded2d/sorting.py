@@ -8,8 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from .threads import briefly
+from .._numba.kernel_cache import cached_njit
+from .._numba.threads import run_short_tasks
 
 WORTH_A_THREAD = 20_000  # words: below that a thread takes longer to start than to sort them
 
@@ -53,7 +53,7 @@ def sort_runs(runs: int, n: int, fill: Callable[[np.ndarray, int], None]) -> np.
         fill(words[begin:end], begin)
         words[begin:end].sort()
 
-    briefly([partial(make, begin, end) for begin, end in pairwise(bounds)])
+    run_short_tasks([partial(make, begin, end) for begin, end in pairwise(bounds)])
     while len(bounds) > 2:
         tasks = []
         for begin, middle, end in zip(bounds[:-2:2], bounds[1:-1:2], bounds[2::2], strict=True):
@@ -61,7 +61,7 @@ def sort_runs(runs: int, n: int, fill: Callable[[np.ndarray, int], None]) -> np.
             tasks += [partial(_merge_front, *merged), partial(_merge_back, *merged)]
         if len(bounds) % 2 == 0:  # a run without a partner
             other[bounds[-2] :] = words[bounds[-2] :]
-        briefly(tasks)
+        run_short_tasks(tasks)
         bounds = [*bounds[:-1:2], n]
         words, other = other, words
     return words

@@ -6,8 +6,8 @@ loop over steps, and so does the scheduler of virtual time.
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
-from .atomics import cycles, load, nap
+from .._numba.atomics import cycles, load, nap
+from .._numba.kernel_cache import cached_njit
 from .dag import locate
 from .in_place.walk import walk_history
 from .mesh import HINT, SOFT_LIMIT, STOP, USED, WAIT_CYCLES, WAITS

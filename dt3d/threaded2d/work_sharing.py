@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
-from ..predicates.borrowed import borrowed
-from .atomics import add, load, padded
+from .._numba.atomics import add, load, padded
+from .._numba.kernel_cache import cached_njit
+from .._numba.unowned import unowned
 from .mesh import END, NEXT, PART
 
 PIECE = 512  # sites
@@ -59,9 +59,9 @@ def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.
 
 
 @cached_njit(forceinline=True)
-def borrowed_sites(sites):
+def unowned_sites(sites):
     """The same without reference counts, for compiled kernels."""
-    return borrowed(sites[0]), borrowed(sites[1]), borrowed(sites[2])
+    return unowned(sites[0]), unowned(sites[1]), unowned(sites[2])
 
 
 @cached_njit

@@ -83,7 +83,7 @@ LOCKS = """
 if __name__ == "__main__":
     from numba.core.compiler_lock import global_compiler_lock
     from dt3d import location
-    from dt3d._kernel_cache import cached_njit
+    from dt3d._numba.kernel_cache import cached_njit
 
     tri = dt3d.Delaunay(points)
     tri.find_simplex(points)

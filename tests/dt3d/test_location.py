@@ -173,7 +173,7 @@ def test_many_points_by_several_threads(monkeypatch):
     tri, points = dt3d.Delaunay(rng.random((2000, 3))), rng.random((5000, 3))
     alone = tri.find_simplex(points)
     monkeypatch.setattr(location, "PIECE", 500)
-    monkeypatch.setattr(location.os, "cpu_count", lambda: 7)
+    monkeypatch.setattr(location, "available_cores", lambda: 7)
     several = location.Locator(tri.points, tri.simplices, tri.neighbors)
     np.testing.assert_array_equal(several.find(points), alone)
     assert min(several.last) > 0

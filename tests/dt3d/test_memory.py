@@ -32,7 +32,7 @@ def test_a_thread_that_the_system_refuses_is_a_memory_error(no_thread, monkeypat
 
 
 def test_a_thread_refused_to_location_is_a_memory_error(no_thread, monkeypatch):
-    monkeypatch.setattr("dt3d.location.os.cpu_count", lambda: 2)
+    monkeypatch.setattr("dt3d.location.available_cores", lambda: 2)
     points = np.random.default_rng(0).random((100, 3))
     tri = dt3d.Delaunay(points)
     many = np.random.default_rng(1).random((20_000, 3))

@@ -5,7 +5,8 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import decisions, loop
+from dt3d.extrapolation import loop
+from dt3d.extrapolation.exact import decisions
 
 from .exact import check_neighbors
 

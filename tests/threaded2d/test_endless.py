@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from dt3d import InternalError
+from dt3d._numba.threads import run_threads
 from dt3d.predicates import work_array
 from dt3d.threaded2d import correction, dag, flips, illegal_edges, optimistic, pool, sequential
 from dt3d.threaded2d.configuration import Options, configured
@@ -27,7 +28,6 @@ from dt3d.threaded2d.mesh import (
     Store,
 )
 from dt3d.threaded2d.steps import DONE, STOPPED
-from dt3d.threaded2d.threads import together
 from dt3d.threaded2d.virtual_time import scheduler
 from dt3d.threaded2d.virtual_time.costs import Costs, prepared
 from dt3d.threaded2d.work_sharing import share
@@ -125,7 +125,7 @@ IMPATIENT = ("optimistic walk", "batch dag without searching", "circumcircle dag
 )
 def test_a_wait_that_nobody_ends(name):
     run, tasks = _stuck(name)
-    _raises_and_leaves_no_thread(lambda: together(tasks, run.stop), "wait for each other")
+    _raises_and_leaves_no_thread(lambda: run_threads(tasks, run.stop), "wait for each other")
 
 
 @pytest.mark.parametrize("name", STUCK)
@@ -140,7 +140,7 @@ def test_what_another_thread_raises_ends_every_wait(name):
 
     before = threading.active_count()
     with pytest.raises(ArithmeticError, match="another one fails"):
-        together([*tasks, failing], run.stop)
+        run_threads([*tasks, failing], run.stop)
     assert threading.active_count() == before
 
 
@@ -148,7 +148,7 @@ def test_what_another_thread_raises_ends_every_wait(name):
 def test_the_stop_flag_ends_every_wait(name):
     run, tasks = _stuck(name)
     run.store.shared[STOP, 0] = 1
-    assert set(together(tasks, run.stop)) == {STOPPED}
+    assert set(run_threads(tasks, run.stop)) == {STOPPED}
 
 
 @numba.njit

@@ -4,15 +4,15 @@ import numba
 import numpy as np
 import pytest
 
+from dt3d._numba.atomics import padded
+from dt3d._numba.threads import run_threads
 from dt3d.predicates import work_array
 from dt3d.threaded2d import dag, sequential
-from dt3d.threaded2d.atomics import padded
 from dt3d.threaded2d.configuration import Options
 from dt3d.threaded2d.lookahead import interleaved
 from dt3d.threaded2d.mesh import END, NEXT, PART, SHARED_ROWS, STATE_COLUMNS
 from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
 from dt3d.threaded2d.steps import DONE
-from dt3d.threaded2d.threads import together
 from dt3d.threaded2d.virtual_time.costs import prepared
 from dt3d.threaded2d.work_sharing import PIECE, ahead_of_all, share, take
 
@@ -72,7 +72,7 @@ def test_threads_at_both_ends_lose_nothing():
     cells, shared = empty_queue(16), padded(SHARED_ROWS)
     came = [np.column_stack([np.arange(n) + n * k, np.full(n, k)]) for k in range(2)]
     went = [np.empty((n, 2), np.int64) for _ in range(2)]
-    together(
+    run_threads(
         [lambda k=k: _produce(cells, shared, came[k]) for k in range(2)]
         + [lambda k=k: _consume(cells, shared, went[k]) for k in range(2)],
         lambda: None,

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..._numba.cores import available_cores
 from ...predicates import work_array
 from ...threaded2d.configuration import Options, queue_for
 from ...threaded2d.correction import correct
@@ -87,7 +87,7 @@ class _Set:
 
     def row(self, method: str) -> Row:
         """Speed-ups on 2 and 4 simulated elements, and here."""
-        processors = os.cpu_count() or 1
+        processors = available_cores()
         return {
             "virtual 2": self.virtual(method, threads_for(method, 2), 2),
             "virtual 4": self.virtual(method, threads_for(method, 4), 4),
@@ -143,7 +143,7 @@ def _by_size(
         "paper P 410, 2": "s--",
         "paper PE 6400, 2": "s--",
     }
-    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
+    note = NOTE.format(processors=available_cores(), repeats=repeats)
     publish(name, title, rows, out, console, _lines(rows, "points", styles, "speed-up"), note)
     return rows
 
@@ -244,6 +244,6 @@ def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int =
         axes.set(ylabel="speed-up")
         axes.figure.legend(loc="outside upper center", ncols=5)
 
-    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
+    note = NOTE.format(processors=available_cores(), repeats=repeats)
     publish("kohout-table4", "Kohout et al. 2004, Table 4: methods", rows, out, console, draw, note)
     return rows

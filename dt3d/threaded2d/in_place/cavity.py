@@ -8,8 +8,8 @@ around them in order (A. Bowyer 1981, D. F. Watson 1981).
 from __future__ import annotations
 
 from ..._errors import InternalError
-from ..._kernel_cache import cached_njit
-from ..atomics import compare_and_swap, load, store_release
+from ..._numba.atomics import compare_and_swap, load, store_release
+from ..._numba.kernel_cache import cached_njit
 from ..geometry import conflicts
 from ..mesh import CHILD, LOCK, NEIGHBOR
 

@@ -7,9 +7,9 @@ the order, so that threads need not ask each other for memory.
 from __future__ import annotations
 
 from ..._errors import InternalError
-from ..._kernel_cache import cached_njit
-from ...predicates.borrowed import borrowed
-from ..atomics import TURNS, load, store_release, wait_a_little
+from ..._numba.atomics import TURNS, load, store_release, wait_a_little
+from ..._numba.kernel_cache import cached_njit
+from ..._numba.unowned import unowned
 from ..mesh import (
     CHILD,
     END,
@@ -27,7 +27,7 @@ from ..mesh import (
 )
 from ..patience import NAP, STEP, strive
 from ..steps import DONE, STOPPED
-from ..work_sharing import borrowed_sites, take
+from ..work_sharing import take, unowned_sites
 from .cavity import BUSY, claim, give_back
 from .walk import walk
 
@@ -67,9 +67,9 @@ def run(points, nodes, shared, state, sites, me, lock, scratch, w):
     With ``lock`` 0 for one thread; with another for each of several threads, every insertion has exclusive
     access to its conflicts and the triangles around them, and begins again where it does not get it.
     """
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, w = borrowed_sites(sites), borrowed(w)
-    held, cavity, rim = borrowed(scratch[0]), borrowed(scratch[1]), borrowed(scratch[2])
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, w = unowned_sites(sites), unowned(w)
+    held, cavity, rim = unowned(scratch[0]), unowned(scratch[1]), unowned(scratch[2])
     hint, at, end = state[me, HINT], state[me, NEXT], state[me, END]
     visited = flips = retries = 0
     inserted = state[me, INSERTED]

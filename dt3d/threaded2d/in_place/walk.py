@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..._kernel_cache import cached_njit
+from ..._numba.atomics import load_acquire
+from ..._numba.kernel_cache import cached_njit
 from ...predicates.filtered2d import orient2d
-from ..atomics import load_acquire
 from ..dag import locate
 from ..geometry import side
 from ..mesh import CHILD, INFINITE, NEIGHBOR

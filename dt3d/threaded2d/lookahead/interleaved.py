@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..._errors import InternalError
-from ..._kernel_cache import cached_njit
-from ..atomics import load_acquire
+from ..._numba.atomics import load_acquire
+from ..._numba.kernel_cache import cached_njit
+from ..._numba.prefetch import prefetch
 from ..dag import child_of
 from ..geometry import root_of
 from ..mesh import CHILD
-from .prefetch import prefetch
 
 LANES = 8
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..._kernel_cache import cached_njit
+from ..._numba.kernel_cache import cached_njit
 from ..in_place.walk import walk_history
 from ..mesh import HINT, IN_HAND, NEXT, VISITED
 from ..queue import ITEM_NODE, ITEM_SITE

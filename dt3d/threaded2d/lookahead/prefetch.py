@@ -1,36 +1,10 @@
-"""Asking for memory before it is needed."""
+"""Asking for what the next steps need: around a triangle, and beyond its neighbours."""
 
 from __future__ import annotations
 
-from typing import Any
-
-from llvmlite import ir
-from numba.core import cgutils, types
-from numba.extending import intrinsic
-
-from ..._kernel_cache import cached_njit
-from ..atomics import element
+from ..._numba.kernel_cache import cached_njit
+from ..._numba.prefetch import prefetch
 from ..mesh import NEIGHBOR
-
-
-@intrinsic
-def prefetch(typingctx: Any, array: Any, row: Any) -> Any:
-    """prefetch(array, row): begin to load the line of the cache in which a row of a 2D array begins, for
-    reading; any row will do."""
-
-    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        pair = types.UniTuple(row, 2)
-        index = context.make_tuple(builder, pair, [args[1], context.get_constant(row, 0)])
-        place = builder.bitcast(
-            element(context, builder, array, args[0], pair, index), ir.IntType(8).as_pointer()
-        )
-        number = ir.IntType(32)
-        kind = ir.FunctionType(ir.VoidType(), [place.type, number, number, number])
-        function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch.p0i8")
-        builder.call(function, [place, number(0), number(3), number(1)])
-        return context.get_dummy_value()
-
-    return types.void(array, row), codegen
 
 
 @cached_njit(forceinline=True)

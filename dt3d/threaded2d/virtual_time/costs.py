@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..._kernel_cache import cached_njit
+from ..._numba.kernel_cache import cached_njit
+from ..._numba.unowned import unowned
 from ...predicates import work_array
-from ...predicates.borrowed import borrowed
 from .. import sequential
 from ..configuration import Options
 from ..first import first_triangle
@@ -82,7 +82,7 @@ def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
 @cached_njit(nogil=True)
 def _tests(points, nodes, leaves, sites, rounds, w):
     """Test leaves and their neighbours against sites far away, as the pool's are; how many tests touched."""
-    points, nodes, w = borrowed(points), borrowed(nodes), borrowed(w)
+    points, nodes, w = unowned(points), unowned(nodes), unowned(w)
     touched = 0
     for i in range(rounds):
         q = sites[i % len(sites)]

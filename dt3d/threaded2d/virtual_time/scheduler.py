@@ -17,9 +17,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..._kernel_cache import cached_njit
+from ..._numba.kernel_cache import cached_njit
+from ..._numba.unowned import unowned
 from ...predicates import work_array
-from ...predicates.borrowed import borrowed
 from .. import batch, circumcircle, optimistic
 from ..configuration import Options
 from ..dag import locate
@@ -32,7 +32,7 @@ from ..patience import STEP, strive
 from ..pool import empty_pool
 from ..queue import empty_queue
 from ..steps import CHANGED, FINISHED, WAITING
-from ..work_sharing import borrowed_sites, next_site
+from ..work_sharing import next_site, unowned_sites
 from .costs import Costs, prepared
 
 SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
@@ -106,10 +106,10 @@ def _simulate(
     w,
 ):
     """Seconds of the last element to end, and of all elements that were not spent waiting."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, pool, cells, w = borrowed_sites(sites), borrowed(pool), borrowed(cells), borrowed(w)
-    notes, lanes, hands = borrowed(notes), borrowed(lanes), borrowed(hands)
-    held, cavity, rim = borrowed(held), borrowed(cavity), borrowed(rim)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, pool, cells, w = unowned_sites(sites), unowned(pool), unowned(cells), unowned(w)
+    notes, lanes, hands = unowned(notes), unowned(lanes), unowned(hands)
+    held, cavity, rim = unowned(held), unowned(cavity), unowned(rim)
     visit, node, test, queue, locks, wait, time_slice = costs
     threads = len(state)
     clock, since = np.zeros(elements), np.zeros(elements)
@@ -174,8 +174,8 @@ def _simulate(
 def _simulate_critical(points, nodes, shared, state, sites, elements, costs, w):
     """The pessimistic method, and with one element the sequential one: as long as an element is in the
     critical section, others that come to it wait; one thread on each element."""
-    points, nodes, shared, state = borrowed(points), borrowed(nodes), borrowed(shared), borrowed(state)
-    sites, w = borrowed_sites(sites), borrowed(w)
+    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
+    sites, w = unowned_sites(sites), unowned(w)
     visit, node, test, queue, locks, wait, time_slice = costs
     clock = np.zeros(elements)
     free, busy = 0.0, 0.0

@@ -24,8 +24,7 @@ from .._errors import InternalError
 from .boxes import Box, Grid, containment_box, contains, corners, difference_cell, empty_box, extend, volume
 from .buckets import Buckets, Cells
 from .points import Point
-from .search import LEAST, SITES_PER_WARRANT, Answer, Best, Question, execute, nothing_found
-from .search import _least as least
+from .warrants import LEAST, SITES_PER_WARRANT, Answer, Best, Question, execute, least, nothing_found
 
 # A box grows by one cell in each direction for two rounds, then by two for two more, by four, ... After so
 # many rounds all cells that are left are opened at once (the paper's "preset limit").

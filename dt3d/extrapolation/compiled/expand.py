@@ -14,10 +14,10 @@ import jax
 import jax.numpy as jnp
 
 from ..boxes import Box, contains
-from ..expansion import cap_cells
-from ..filtered_distance import Frame, distance_bounds, frame
+from ..exact.expansion import cap_cells
+from ..exact.filtered_distance import Frame, distance_bounds, frame
 from ..points import Point, add, dot, norm, scale, sub
-from ..search import NO_SITE
+from ..warrants import NO_SITE
 from .windows import CELLS, Windows
 
 SLOTS = 4  # sites examined in one turn of a loop

@@ -5,7 +5,7 @@ import sys
 
 COMPILE = """
 import numba
-from dt3d._compiling import announce_compilation
+from dt3d._numba.announce import announce_compilation
 
 def seldom(x):
     return x + 1

@@ -7,14 +7,20 @@ threads that count references of one array wait for each other.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Sequence
 
 from llvmlite import ir
 from numba.core import types
+from numba.core.base import BaseContext
+from numba.core.dispatcher import Dispatcher
+from numba.core.typing import Context
+from numba.core.typing.templates import Signature
 
 
-def call_outlined(typingctx: Any, function: Any, kinds: tuple[Any, ...]) -> Any:
-    """What an intrinsic returns that calls ``function`` with arguments of these types, and is never inlined.
+def call_noinline(
+    typingctx: Context, function: Dispatcher, kinds: tuple[types.Type, ...]
+) -> tuple[Signature, Callable[..., ir.Value]]:
+    """Return what an intrinsic returns that calls ``function``, with arguments of these types, never inlined.
 
     >>> import numba
     >>> from numba.extending import intrinsic
@@ -23,7 +29,7 @@ def call_outlined(typingctx: Any, function: Any, kinds: tuple[Any, ...]) -> Any:
     ...     return x + 1
     >>> @intrinsic
     ... def call_seldom(typingctx, x):
-    ...     return call_outlined(typingctx, seldom, (x,))
+    ...     return call_noinline(typingctx, seldom, (x,))
     >>> @numba.njit
     ... def often(x):
     ...     return x if x > 0 else call_seldom(x)
@@ -35,7 +41,9 @@ def call_outlined(typingctx: Any, function: Any, kinds: tuple[Any, ...]) -> Any:
     wide = tuple(types.int64 if isinstance(k, types.Integer) else k for k in kinds)
     inner = kind.get_call_type(typingctx, wide, {})
 
-    def codegen(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+    def codegen(
+        context: BaseContext, builder: ir.IRBuilder, signature: Signature, values: Sequence[ir.Value]
+    ) -> ir.Value:
         implementation = context.get_function(kind, inner)
         context.add_linking_libs(getattr(implementation, "libs", ()))
         words = [context.cast(builder, v, t, u) for v, t, u in zip(values, kinds, inner.args, strict=True)]

@@ -3,7 +3,7 @@
 numba's own ``cache=True`` does not see that a function of another module, compiled into one, has changed; it
 ends the program where no folder can be written, where a file of its cache is cut off, or where the disk is
 full; and two processes that save at once can leave one's code under the other's name. Here a record on disk
-says what it was made from (`_sources`), for which types and processor, and has a checksum; what does not fit
+says what it was made from (`sources`), for which types and processor, and has a checksum; what does not fit
 is compiled again.
 """
 
@@ -16,20 +16,23 @@ import pickle
 import time
 import zlib
 from collections.abc import Callable, Iterator
-from functools import cache, partial
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numba.core.caching import IndexDataCacheFile, _CacheLocator
 
 CURE = "set the environment variable NUMBA_CACHE_DIR to a folder that can be written"
-PATIENCE = 2.0  # seconds for another process to save what it has compiled
+SECONDS_FOR_LOCK = 2.0  # seconds for another process to save what it has compiled
 
 
-def cached_njit(function: Callable | None = None, **options: Any) -> Any:
-    """``numba.njit(cache=True)`` with a cache that is never stale and never in the way; a decorator.
+def cached_njit(function: Callable[..., object] | None = None, **options: object) -> Any:
+    """Decorate a function as ``numba.njit(cache=True)`` does, with a cache that is never stale.
 
     ``@cached_njit`` or, with options of ``numba.njit``, ``@cached_njit(nogil=True)``.
     """
     if function is None:
-        return partial(cached_njit, **options)
+        return lambda function: cached_njit(function, **options)
     import numba
 
     _forks_wait()
@@ -79,7 +82,7 @@ def _forks_wait() -> None:
 def source_cache() -> type | None:
     """The cache that is made from numba's; None where this numba has another form, and caches in its way."""
     try:
-        from ._numba_cache import SourceCache
+        from .numba_cache import SourceCache
     except (ImportError, AttributeError):
         return None
     return SourceCache
@@ -88,13 +91,13 @@ def source_cache() -> type | None:
 class Records:
     """Records in the files of one function: each says what it is, and is checked when it is read."""
 
-    def __init__(self, file: Any, locator: Any) -> None:
+    def __init__(self, file: IndexDataCacheFile, locator: _CacheLocator) -> None:
         self.file = file
         self.folder = locator.get_cache_path()
         self.stamp = locator.get_source_stamp()
 
-    def load(self, key: Any) -> Any:
-        """What was saved under a key; None if nothing, or nothing whole, was."""
+    def load(self, key: object) -> object:
+        """Return what was saved under a key; None if nothing, or nothing whole, was."""
         record = self.file.load(key)
         if not isinstance(record, tuple) or len(record) != 4:
             return None
@@ -103,7 +106,7 @@ class Records:
             return None
         return pickle.loads(data)
 
-    def save(self, key: Any, data: Any) -> None:
+    def save(self, key: object, data: object) -> None:
         """Save under a key; raises OSError."""
         dumped = self.file._dump(data)
         record = (key, self.stamp, zlib.crc32(dumped), dumped)
@@ -123,8 +126,11 @@ class Records:
 
 @contextlib.contextmanager
 def _alone(folder: str) -> Iterator[None]:
-    """Keep other processes from saving in a folder, where the system can: an index is read, changed and
-    written, and what another one enters meanwhile would be lost, and compiled again."""
+    """Keep other processes from saving in a folder, where the system can.
+
+    An index is read, changed and written. What another process enters meanwhile would be lost, and compiled
+    again.
+    """
     try:
         import fcntl
 
@@ -134,7 +140,7 @@ def _alone(folder: str) -> Iterator[None]:
         return
     try:
         begun = time.monotonic()
-        while time.monotonic() - begun < PATIENCE:
+        while time.monotonic() - begun < SECONDS_FOR_LOCK:
             try:
                 fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:

@@ -18,7 +18,7 @@ from ..._errors import InternalError
 from ...predicates.integers import limbs_of
 from ..outcome import Outcome
 from ..points import Point
-from ..search import NO_SITE
+from ..warrants import NO_SITE
 from .expand import AHEAD, FOUND, HULL, TIE, WIDER, Expansion, expand
 from .general import GeneralCode
 from .mesh import (
@@ -257,10 +257,10 @@ class Triangulation:
             self.order.astype(np.int32)[corners],
             neighbors,
             iteration,
-            self.iteration,
-            self.face_expansions,
-            self.sites_searched,
-            self.exact_decisions,
+            per_iteration=self.iteration,
+            face_expansions=self.face_expansions,
+            sites_searched=self.sites_searched,
+            exact_decisions=self.exact_decisions,
             seconds=self.seconds,
         )
 

@@ -15,12 +15,12 @@ import jax
 import jax.numpy as jnp
 
 from ..boxes import Grid, _cell, corners, volume
-from ..expansion import TRIALS, cap_cells, trial_bound
-from ..filtered_distance import Frame, distance_bounds, frame
+from ..caps import half_space_bounds
+from ..exact.expansion import cap_cells, trial_bound
+from ..exact.filtered_distance import Frame, distance_bounds, frame
+from ..expansion import TRIALS
 from ..points import Point, dot, epsilon, norm
-from ..regions import half_space_bounds
-from ..search import NO_SITE, Best
-from ..search import _least as least
+from ..warrants import NO_SITE, Best, least
 from .expand import Expansion, at, nothing_known, settle
 
 REQUESTS = 4096  # rows of faces looked at together

@@ -35,7 +35,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 
-from .points import Point, cross, dot, epsilon, scale, sub
+from ..points import Point, cross, dot, epsilon, scale, sub
 
 
 class Frame(NamedTuple):

@@ -17,14 +17,14 @@ import jax.numpy as jnp
 
 import scanvec as sv
 
-from .._errors import InconsistencyError
-from .dead_faces import distinct_facets, opposite
+from ..._errors import InconsistencyError
+from ..dead_faces import both_sides, distinct_facets
+from ..expansion import Face
+from ..gift_wrapping import squared_circumradius
+from ..points import Point
+from ..warrants import NO_SITE
 from .decisions import Counts, Expansion, expand_exactly
-from .exact_sites import ExactSites
-from .expansion import Face
-from .gift_wrapping import squared_circumradius
-from .points import Point
-from .search import NO_SITE
+from .sites import ExactSites
 
 # Sites whose nearest neighbours floating point cannot tell could send it round in circles.
 MOST_REPAIRS = 1000
@@ -63,11 +63,6 @@ def seeds(exact: ExactSites, facets: Face) -> tuple[Seeds, Counts]:
         facets = distinct_facets(facets._replace(c=machine.map(_mend, facets.c, refuter)))
     msg = "no Delaunay facet was found to begin with; use method='insertion'"
     raise InconsistencyError(msg, 0)
-
-
-def both_sides(facets: Face) -> Face:
-    """Every facet seen from one side, then every one seen from the other."""
-    return sv.append(facets, facets.a.machine.map(opposite, facets))
 
 
 def _first_look(front: Expansion, back: Expansion) -> tuple[Any, Any]:

@@ -1,4 +1,4 @@
-"""Atomic words for compiled threads: load, store, add, exchange, compare-and-swap, and giving way.
+"""Atomic words for compiled threads: load, store, add, compare-and-swap, and giving way.
 
 A plain read of an array in a loop may be hoisted out of it by LLVM, and a plain write moved past another;
 words that threads share are only touched through these. They are LLVM's own atomics, sequentially consistent
@@ -15,14 +15,18 @@ from typing import Any
 import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
+from numba.core.base import BaseContext
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
+from .kernel_cache import cached_njit
 
 
-def element(context: Any, builder: Any, array_type: Any, array: Any, index_type: Any, index: Any) -> Any:
-    """A pointer to one element of an array; the index is an integer or a tuple of them."""
+def element(
+    context: BaseContext, builder: ir.IRBuilder, array_type: types.Array, array: ir.Value,
+    index_type: types.Type, index: ir.Value,
+) -> ir.Value:  # fmt: skip
+    """Return a pointer to one element of an array; the index is an integer or a tuple of integers."""
     parts = _parts(index_type)
     values = cgutils.unpack_tuple(builder, index) if isinstance(index_type, types.BaseTuple) else [index]
     words = [context.cast(builder, v, t, types.intp) for v, t in zip(values, parts, strict=True)]
@@ -30,12 +34,12 @@ def element(context: Any, builder: Any, array_type: Any, array: Any, index_type:
     return cgutils.get_item_pointer(context, builder, array_type, native, words, wraparound=False)
 
 
-def _parts(index_type: Any) -> tuple[Any, ...]:
+def _parts(index_type: types.Type) -> tuple[types.Type, ...]:
     """The types of an index, one for each dimension."""
     return tuple(getattr(index_type, "types", (index_type,)))
 
 
-def _check(array: Any, index: Any) -> None:
+def _check(array: types.Type, index: types.Type) -> None:
     """Refuse at compile time what has no atomic word."""
     parts = len(_parts(index))
     if not (
@@ -45,16 +49,16 @@ def _check(array: Any, index: Any) -> None:
         raise TypingError(msg)
 
 
-def _bytes(array: Any) -> int:
-    return array.dtype.bitwidth // 8
+def _bytes(array: types.Array) -> int:
+    return int(array.dtype.bitwidth) // 8
 
 
 def _loader(ordering: str) -> Any:
     @intrinsic
-    def load(typingctx: Any, array: Any, index: Any) -> Any:
+    def load(typingctx, array, index):
         _check(array, index)
 
-        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        def codegen(context, builder, signature, args):
             pointer = element(context, builder, array, args[0], index, args[1])
             return builder.load_atomic(pointer, ordering, _bytes(array))
 
@@ -65,10 +69,10 @@ def _loader(ordering: str) -> Any:
 
 def _storer(ordering: str) -> Any:
     @intrinsic
-    def store(typingctx: Any, array: Any, index: Any, value: Any) -> Any:
+    def store(typingctx, array, index, value):
         _check(array, index)
 
-        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        def codegen(context, builder, signature, args):
             pointer = element(context, builder, array, args[0], index, args[1])
             word = context.cast(builder, args[2], value, array.dtype)
             builder.store_atomic(word, pointer, ordering, _bytes(array))
@@ -81,10 +85,10 @@ def _storer(ordering: str) -> Any:
 
 def _modifier(operation: str) -> Any:
     @intrinsic
-    def modify(typingctx: Any, array: Any, index: Any, value: Any) -> Any:
+    def modify(typingctx, array, index, value):
         _check(array, index)
 
-        def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        def codegen(context, builder, signature, args):
             pointer = element(context, builder, array, args[0], index, args[1])
             word = context.cast(builder, args[2], value, array.dtype)
             return builder.atomic_rmw(operation, pointer, word, "seq_cst")
@@ -104,16 +108,14 @@ store_release = _storer("release")
 """store(array, index, value), after all that precedes it. A plain move on x86."""
 add = _modifier("add")
 """add(array, index, value): adds, and returns what was there before."""
-exchange = _modifier("xchg")
-"""exchange(array, index, value): puts the value there and returns what was there before."""
 
 
 @intrinsic
-def compare_and_swap(typingctx: Any, array: Any, index: Any, expected: Any, value: Any) -> Any:
+def compare_and_swap(typingctx, array, index, expected, value):
     """Put value where expected is; returns whether it was."""
     _check(array, index)
 
-    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    def codegen(context, builder, signature, args):
         pointer = element(context, builder, array, args[0], index, args[1])
         old = context.cast(builder, args[2], expected, array.dtype)
         new = context.cast(builder, args[3], value, array.dtype)
@@ -124,10 +126,10 @@ def compare_and_swap(typingctx: Any, array: Any, index: Any, expected: Any, valu
 
 
 @intrinsic
-def cycles(typingctx: Any) -> Any:
+def cycles(typingctx):
     """The processor's cycle counter, int64; one reading costs some 10 ns."""
 
-    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    def codegen(context, builder, signature, args):
         kind = ir.FunctionType(ir.IntType(64), [])
         return builder.call(cgutils.get_or_insert_function(builder.module, kind, "llvm.readcyclecounter"), [])
 
@@ -157,7 +159,7 @@ TURNS = 64
 
 @cached_njit
 def wait_a_little(turn):
-    """Give way; from the `TURNS`-th turn in a row on, sleep for some 30 microseconds each time.
+    """Give way; from the `TURNS`-th turn in a row on, sleep for some 30 microseconds per turn.
 
     Short waits end while a thread gives way. In long ones, of several threads for one, giving way takes more
     time from the thread that is waited for than the wait is worth.
@@ -170,8 +172,10 @@ def wait_a_little(turn):
 
 @cached_njit
 def acquire(words, at, me):
-    """Take the lock words[at], which is 0 when free; ``me`` is not 0. Whether it was free in one of `TURNS`
-    turns: who waits longer has to look whether all have to stop."""
+    """Take the lock words[at], which is 0 when free; ``me`` is not 0. Returns whether it is taken.
+
+    It is tried `TURNS` times. After that the caller has to see whether all threads have to stop.
+    """
     for _ in range(TURNS):
         if compare_and_swap(words, at, 0, me):
             return True
@@ -186,6 +190,5 @@ def release(words, at):
 
 
 def padded(n: int) -> np.ndarray:
-    """n words, int64 (n, 16), of which only column 0 is meant to be used: each has two cache lines of its
-    own."""
+    """Return n words, int64 (n, 16), of which only column 0 is used: each has two cache lines of its own."""
     return np.zeros((n, 16), np.int64)

@@ -15,10 +15,10 @@ import jax.numpy as jnp
 
 from ...predicates import elementwise
 from ..boxes import Box, contains
-from ..expansion import cap_cells
-from ..filtered_distance import distance_bounds, frame
+from ..exact.expansion import cap_cells
+from ..exact.filtered_distance import distance_bounds, frame
 from ..points import Point
-from ..search import NO_SITE
+from ..warrants import NO_SITE
 from .expand import FOUND, HULL, WIDER, Expansion, _loop, at, nothing_known
 from .windows import CELLS, Windows
 

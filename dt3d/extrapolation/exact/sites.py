@@ -10,9 +10,9 @@ import numpy as np
 
 import scanvec as sv
 
-from ..predicates import elementwise
-from ..predicates.integers import BITS, limbs_of
-from .buckets import Buckets
+from ...predicates import elementwise
+from ...predicates.integers import BITS, limbs_of
+from ..buckets import Buckets
 
 # With differences of so many bits the height of a site above a face, a sum of six products of three, is
 # exact.

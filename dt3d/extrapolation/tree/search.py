@@ -17,11 +17,11 @@ import numpy as np
 
 import scanvec as sv
 
-from .._errors import InternalError
-from .buckets import Buckets
-from .points import Point
-from .search import LEAST, Answer, Best, Question, better_of, execute, nothing_found
-from .tree import FANOUT, descend, entry_test
+from ..._errors import InternalError
+from ..buckets import Buckets
+from ..points import Point
+from ..warrants import LEAST, Answer, Best, Question, better_of, execute, nothing_found
+from .boxes import FANOUT, descend, entry_test
 
 # Trials before the search does without a bound, which is the last one; more than any question has.
 MOST_TRIALS = 64

@@ -19,10 +19,10 @@ import pytest
 from numba.core import caching
 
 import dt3d
-from dt3d import _kernel_cache, _sources
+from dt3d._numba import kernel_cache, numba_cache, sources
 
 KERNEL = """
-from ._kernel_cache import cached_njit
+from .kernel_cache import cached_njit
 from .inlined import outer
 
 @cached_njit
@@ -34,7 +34,7 @@ def alone(x):
     return x
 """
 INLINED = """
-from ._kernel_cache import cached_njit
+from .kernel_cache import cached_njit
 from . import (
     constants,  # (which are compiled in)
 )
@@ -51,8 +51,8 @@ class Package:
     def __init__(self, folder):
         self.folder = folder / "kernels_for_tests"
         self.folder.mkdir()
-        for module in ("_kernel_cache", "_numba_cache", "_sources"):
-            shutil.copy(Path(dt3d.__file__).with_name(f"{module}.py"), self.folder)
+        for module in (kernel_cache, numba_cache, sources):
+            shutil.copy(module.__file__, self.folder)
         self.write("__init__", "")
         self.write("kernel", KERNEL)
         self.write("inlined", INLINED)
@@ -191,7 +191,7 @@ def test_without_a_writable_folder_it_works(package, monkeypatch):
     (package.folder / "__pycache__").write_text("a file in place of the folder")
     module = package.load()
     assert module.kernel(3) == 3
-    assert not sys.modules[f"{package.folder.name}._kernel_cache"].Kept.anywhere
+    assert not sys.modules[f"{package.folder.name}.kernel_cache"].Kept.anywhere
 
 
 def test_a_folder_that_was_filled_and_cannot_be_written_serves(package, monkeypatch):
@@ -271,9 +271,9 @@ def test_two_first_processes_at_once_and_a_third_that_compiles_nothing(package, 
 
 
 def test_this_numba_has_what_the_cache_is_made_from():
-    assert _kernel_cache.source_cache() is not None, (
+    assert kernel_cache.source_cache() is not None, (
         f"numba {numba.__version__} caches in another form: compiled code can be stale after an update in "
-        f"place, and a damaged cache ends a call; adapt dt3d/_numba_cache.py"
+        f"place, and a damaged cache ends a call; adapt dt3d/_numba/numba_cache.py"
     )
 
 
@@ -286,8 +286,8 @@ def test_a_numba_that_caches_in_another_form_does_it_its_own_way(package, monkey
 
 def modules_with_kernels():
     names = [m.name for m in pkgutil.walk_packages(dt3d.__path__, "dt3d.")]
-    sources = {name: Path(importlib.util.find_spec(name).origin) for name in names if "__main__" not in name}
-    return [name for name, file in sources.items() if "njit" in file.read_text()]
+    files = {name: Path(importlib.util.find_spec(name).origin) for name in names if "__main__" not in name}
+    return [name for name, file in files.items() if "njit" in file.read_text()]
 
 
 def test_imports_are_those_that_python_finds():
@@ -305,13 +305,13 @@ def test_imports_are_those_that_python_finds():
                 if inside - sys.modules.keys():
                     expected.add(base)
         expected = {m for m in expected if m.partition(".")[0] == "dt3d"}
-        assert _sources.imported(source, name, hasattr(module, "__path__")) == expected, name
+        assert sources.imported(source, name, hasattr(module, "__path__")) == expected, name
 
 
 def test_what_kernels_use_is_among_their_sources():
     for name in modules_with_kernels():
         module = importlib.import_module(name)
-        sources = closure(name)
+        found = closure(name)
         for function in vars(module).values():
             if not hasattr(function, "py_func"):
                 continue
@@ -319,12 +319,12 @@ def test_what_kernels_use_is_among_their_sources():
                 value = module.__dict__.get(used)
                 home = getattr(getattr(value, "py_func", value), "__module__", None)
                 if isinstance(home, str) and home.startswith("dt3d."):
-                    assert home in sources, f"{name}: {used} is of {home}"
+                    assert home in found, f"{name}: {used} is of {home}"
 
 
 def closure(module):
     found, ahead = set(), {module}
     while ahead:
         found |= ahead
-        ahead = set().union(*(_sources._read(name)[1] for name in ahead)) - found
+        ahead = set().union(*(sources._read(name)[1] for name in ahead)) - found
     return found

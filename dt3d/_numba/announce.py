@@ -1,4 +1,4 @@
-"""A word about why the first call takes long: numba compiles, once, and keeps the result on disk.
+"""Why the first call takes long: numba compiles, once, and keeps the result on disk.
 
 It goes to the logger "dt3d" as a warning, which is printed to stderr where nobody has configured logging, as
 JAX does for what a user should know. ``logging.getLogger("dt3d").setLevel("ERROR")`` silences it.
@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import functools
 import logging
-from typing import Any
 
-from ._kernel_cache import CURE, Kept
+from .kernel_cache import CURE, Kept
 
 MESSAGE = "compiling, which takes some ten to forty seconds once; numba keeps the result on disk"
 NOT_KEPT = (
@@ -21,20 +20,22 @@ NOT_KEPT = (
 
 @functools.cache
 def announce_compilation() -> None:
-    """From now on the first function of dt3d that numba has to compile is announced; what it has on disk is
-    not."""
+    """Announce, from now on, the first function of dt3d that numba has to compile.
+
+    What numba has on disk is not announced.
+    """
     from numba.core import event
 
     class Announcer(event.Listener):
         announced = False
 
-        def on_start(self, event: Any) -> None:
+        def on_start(self, event: event.Event) -> None:
             module = event.data["dispatcher"].py_func.__module__
             if not self.announced and module.partition(".")[0] == "dt3d":
                 self.announced = True
                 logging.getLogger("dt3d").warning(MESSAGE if Kept.anywhere else NOT_KEPT)
 
-        def on_end(self, event: Any) -> None:
+        def on_end(self, event: event.Event) -> None:
             pass
 
     event.register("numba:compile", Announcer())

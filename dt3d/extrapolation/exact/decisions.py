@@ -15,13 +15,14 @@ import numpy as np
 
 import scanvec as sv
 
-from .._errors import QuadraticSearchWarning
-from .exact_sites import ExactSites
-from .expansion import FILTERED, Face, open_exact_face, search_faces
-from .points import Point
-from .search import NO_SITE, Best
-from .tree import FANOUT, Request, descend, entry_test, unfold
-from .tree_search import Bounded
+from ..._errors import QuadraticSearchWarning
+from ..expansion import Face, search_faces
+from ..points import Point
+from ..tree.boxes import FANOUT, Request, descend, entry_test, unfold
+from ..tree.search import Bounded
+from ..warrants import NO_SITE, Best
+from .expansion import FILTERED, open_exact_face
+from .sites import ExactSites
 
 # Leaves that a face compares exactly, on average, before a warning says so.
 CROWD = 256

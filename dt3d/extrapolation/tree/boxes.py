@@ -18,7 +18,7 @@ import numpy as np
 
 import scanvec as sv
 
-from .points import Point
+from ..points import Point
 
 FANOUT = 8
 # Requests of one step; it bounds the memory. Longer lists are cut in two, one of which waits.

@@ -10,7 +10,6 @@ import hashlib
 import re
 import sys
 from functools import cache
-from typing import Any
 
 # At the beginning of a line: `from .a import b, c`, also in parentheses, and `import package.a as b`. What is
 # imported later, inside a function or for type checkers, is not compiled in.
@@ -20,7 +19,7 @@ _NAME = re.compile(r"(\w+)(?:\s+as\s+\w+)?\s*(?:,|\)|#|$)")
 
 
 def fingerprint(module: str) -> str | None:
-    """A hash over the sources of a module and of all that it imports from its own package, in turn.
+    """Return a hash over the sources of a module and of all that it imports from its own package, in turn.
 
     The dotted ``module`` must have been imported, or have got beyond its imports. None where no source is at
     hand, as in a frozen program.
@@ -40,10 +39,10 @@ def fingerprint(module: str) -> str | None:
 @cache
 def _read(module: str) -> tuple[str | None, frozenset[str]]:
     """A hash over the source of a module, and what it imports from its own package."""
-    loader: Any = getattr(sys.modules[module], "__loader__", None)
+    loader: object = getattr(sys.modules[module], "__loader__", None)
     try:
-        source = loader.get_source(module)  # from a zip file, too
-    except (AttributeError, ImportError):
+        source: str | None = loader.get_source(module)  # type: ignore[attr-defined]  # from a zip file, too
+    except (AttributeError, ImportError):  # no loader, or one that has no source
         source = None
     if source is None:
         return None, frozenset()
@@ -52,8 +51,10 @@ def _read(module: str) -> tuple[str | None, frozenset[str]]:
 
 
 def imported(source: str, module: str, is_package: bool) -> frozenset[str]:
-    """The dotted names of the loaded modules that a source imports, at the beginning of lines, from its own
-    package."""
+    """The dotted names of the loaded modules of its own package that a source imports.
+
+    Only imports at the beginning of a line count.
+    """
     names: set[str] = set()
     for origin, what in _FROM.findall(source):
         base = _absolute(origin, module, is_package)

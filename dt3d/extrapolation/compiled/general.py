@@ -14,13 +14,13 @@ import scanvec as sv
 from ...predicates.integers import limbs_of
 from ..buckets import bucket
 from ..dead_faces import distinct_facets
-from ..decisions import expand_exactly
-from ..exact_sites import ExactSites, small_integers
+from ..exact.decisions import expand_exactly
+from ..exact.first_facets import seeds as exact_seeds
+from ..exact.sites import ExactSites, small_integers
 from ..expansion import Face
 from ..gift_wrapping import first_facets
 from ..points import Point
-from ..search import NO_SITE
-from ..start import seeds as exact_seeds
+from ..warrants import NO_SITE
 
 
 class GeneralCode:
