@@ -46,6 +46,9 @@ ENGINES = {
     "dt3d/_numba": "numba_tools",
 }
 
+# imports within functions that may go round: the cache is made from numba, which is loaded when it is first used
+LAZY = [["dt3d._numba.kernel_cache", "dt3d._numba.numba_cache"]]
+
 # arrays of the insertion in space, whose layout one module knows
 ARRAYS = {"mesh", "tetrahedra", "sites", "labels", "spheres", "radii"}
 LAYOUT = "dt3d/insertion/mesh.py"
@@ -107,7 +110,10 @@ def test_imports_have_no_circle():
     found += [
         circle
         for circle in circles(import_graph(SOURCES, "module", "call"))
-        if any(f"{name.replace('.', '/')}/".startswith(f"{engine}/") for name in circle for engine in ENGINES)
+        if circle not in LAZY
+        and any(
+            f"{name.replace('.', '/')}/".startswith(f"{engine}/") for name in circle for engine in ENGINES
+        )
     ]
     assert not found, _listed([" ".join(circle) for circle in found])
 
