@@ -46,7 +46,7 @@ ENGINES = {
     "dt3d/_numba": "numba_tools",
 }
 
-# imports within functions that may go round: the cache is made from numba, which is loaded when it is first used
+# imports in functions that may go round: the cache is made from numba, which loads when it is first used
 LAZY = [["dt3d._numba.kernel_cache", "dt3d._numba.numba_cache"]]
 
 # arrays of the insertion in space, whose layout one module knows
