@@ -132,7 +132,7 @@ def _before(sites, a, b):
 
 @cached_njit(nogil=True)
 def gather(sites, order, rows, begin, end):
-    """Put sites float64 (n, 3) in order, into rows of four (see `layout`), from place begin to end - 1."""
+    """Put sites float64 (n, 3) in order, into rows of four (see `mesh`), from place begin to end - 1."""
     for i in range(begin, end):
         for k in range(3):
             rows[4 * i + k] = sites[order[i], k]

@@ -169,7 +169,7 @@ class Delaunay(Result):
             points=points,
             triangles=outcome.triangles,
             neighbors=outcome.neighbors,
-            thread=outcome.maker,
+            thread=outcome.thread,
             inserted_by=outcome.inserted_by,
             duplicates=outcome.duplicates,
             stats=outcome.stats,

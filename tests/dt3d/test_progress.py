@@ -85,8 +85,8 @@ def test_a_run_in_circles_ends(monkeypatch):
 
 
 def test_insertion_reports_every_stretch_and_stops(monkeypatch):
-    monkeypatch.setattr("dt3d.insertion.loop.STRETCH", 40)
-    monkeypatch.setattr("dt3d.insertion.crew.STRETCH", 10)
+    monkeypatch.setattr("dt3d.insertion.driver.SITES_PER_REPORT", 40)
+    monkeypatch.setattr("dt3d.insertion.team.SITES_PER_CALL", 10)
     points = np.random.default_rng(0).random((100, 3))
     seen = []
     dt3d.Delaunay(points, method="insertion", callback=seen.append)

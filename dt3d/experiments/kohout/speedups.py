@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..._numba.cores import available_cores
-from ...predicates import work_array
 from ...threaded2d.configuration import Options, queue_for
 from ...threaded2d.correction import correct
 from ...threaded2d.driver import triangulate
@@ -100,7 +99,7 @@ def _compiled(points: np.ndarray, options: Options) -> None:
     few = points[: min(500, len(points))]
     triangulate(few, options)
     store, _ = prepared(few, options)
-    correct(store, np.arange(ROOTS, dtype=np.int32), work_array(store.points), lambda: None)
+    correct(store, np.arange(ROOTS, dtype=np.int32))
 
 
 def _seconds(points: np.ndarray, options: Options) -> float:

@@ -11,7 +11,7 @@ import pytest
 
 import dt3d
 from dt3d._input import first_copies
-from dt3d.insertion import loop, order
+from dt3d.insertion import driver, order
 
 from ..exact import validate
 from ..families import tetrahedra
@@ -99,8 +99,8 @@ def test_equal_sites_are_together_on_the_curve(name, seed):
 @sets("crowded cell 2^-910", "crowded cell 2^-960", "subnormal cell", "signed zeros")
 @pytest.mark.parametrize("threads", [1, 2])
 def test_copies_in_a_crowded_cell_are_not_inserted(name, threads, monkeypatch):
-    monkeypatch.setattr(loop, "available_cores", lambda: 2)
-    monkeypatch.setattr("dt3d.insertion.crew.LEAST_PIECE", 20)
+    monkeypatch.setattr(driver, "available_cores", lambda: 2)
+    monkeypatch.setattr("dt3d.insertion.team.LEAST_SITES_PER_THREAD", 20)
     points = SETS[name]
     tri = dt3d.Delaunay(points, threads=threads)
     assert tri.stats.threads == threads

@@ -7,7 +7,7 @@ from dt3d.threaded2d.configuration import Options
 from dt3d.threaded2d.virtual_time.costs import Costs
 from dt3d.threaded2d.virtual_time.scheduler import simulate
 
-from .families import EVERY_SET, uniform
+from ..families import EVERY_SET, uniform
 
 # of the proportions that were measured, so that the tests do not depend on the machine's load
 COSTS = Costs(visit=60e-9, node=40e-9, test=15e-9)
