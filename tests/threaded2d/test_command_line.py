@@ -1,4 +1,4 @@
-"""`dt3d triangulate` and `verify` in the plane: what counts as planar, options that go together, and files."""
+"""`dt3d triangulate` and `verify` in the plane: what is planar, options that go together, files."""
 
 import re
 from functools import cache
