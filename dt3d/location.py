@@ -26,7 +26,7 @@ from ._numba.unowned import unowned
 from ._results import check_complex, check_range, frozen
 from ._star import Complex, find_beside, side_of_facet
 from ._topology import OUTSIDE
-from .insertion.order import along_curve
+from .ordering.along_curve import along_curve_in_space
 from .predicates import work_array
 
 LEAST_POINTS_PER_THREAD = 4096
@@ -207,4 +207,4 @@ def _along_curve(points: np.ndarray) -> np.ndarray:
         return np.arange(len(points))
     in_space = np.zeros((len(points), 3))
     in_space[:, : points.shape[1]] = points
-    return along_curve(in_space, lambda work, n: work(0, n))
+    return along_curve_in_space(in_space, lambda work, n: work(0, n))

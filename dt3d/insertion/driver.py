@@ -13,10 +13,12 @@ import numpy.typing as npt
 from .._errors import DegenerateInputError
 from .._memory import require
 from .._numba.cores import available_cores
+from ..ordering.along_curve import along_curve_in_space, bounds, gather
+from ..ordering.brio import insertion_rounds
+from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
 from .first import first_tetrahedron
 from .mesh import FREE, MOST_SLOTS, aligned, vertices
-from .order import along_curve, bounds, copied, gather, insertion_rounds, separate_copies
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
 from .worker import State
@@ -126,7 +128,7 @@ def _in_order(
     """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
     int32 (k, 2)."""
     by_all = partial(in_chunks, threads)
-    order = along_curve(sites, by_all)
+    order = along_curve_in_space(sites, by_all)
     original = order.astype(np.int32)
     rows = aligned(4 * len(order), np.float64)
     by_all(lambda i, j: gather(sites, original, rows, i, j), len(order))

@@ -15,6 +15,7 @@ from .._errors import InternalError
 from .._memory import require
 from .._numba.cores import available_cores
 from .._numba.threads import run_threads
+from ..ordering.along_curve import along_curve_in_plane
 from . import batch, circumcircle, optimistic, pessimistic, sequential, steps
 from . import columns as c
 from .compaction import compact
@@ -25,7 +26,6 @@ from .illegal_edges import marked
 from .in_place import star
 from .input_subdivision import insertion_order
 from .mesh import ROOTS, Store
-from .order import along_curve
 from .statistics import Statistics
 from .work_sharing import Schedule, ahead_of_all, share
 
@@ -78,7 +78,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     begun = time.perf_counter()
     # what never waits gains nothing from more threads than processors
     busy = min(options.threads, available_cores())
-    site, duplicates = along_curve(points, busy)
+    site, duplicates = along_curve_in_plane(points, busy)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from .._numba.kernel_cache import cached_njit
+from ..ordering.brio import brio
+from ..ordering.hashing import mixed
 from .configuration import Options
-from .order import brio, mixed
 
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from dt3d import threaded2d
+from dt3d.ordering.along_curve import along_curve_in_plane
 from dt3d.threaded2d import columns as c
 from dt3d.threaded2d import illegal_edges
 from dt3d.threaded2d.columns import triangle
@@ -13,7 +14,6 @@ from dt3d.threaded2d.configuration import Options
 from dt3d.threaded2d.correction import is_illegal
 from dt3d.threaded2d.driver import Run
 from dt3d.threaded2d.mesh import ROOTS
-from dt3d.threaded2d.order import along_curve
 from dt3d.threaded2d.virtual_time.costs import prepared
 
 from .families import DISTRIBUTIONS, EVERY_SET, canonical
@@ -108,7 +108,7 @@ def test_where_there_is_no_room_for_marks_everything_is_corrected(monkeypatch):
     for seed in range(12):
         run = _run(_Crowded, points, 4, seed)
         full += run.full
-        rows = along_curve(points)[0]
+        rows = along_curve_in_plane(points)[0]
         np.testing.assert_array_equal(
             canonical(compact(run.store.nodes[: run.store.used], np.sort(rows)).triangles), want
         )

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.unowned import unowned
+from ...ordering.along_curve import along_curve_in_plane
 from .. import columns as c
 from .. import sequential
 from ..columns import triangle
@@ -16,7 +17,6 @@ from ..configuration import Options
 from ..first import first_triangle
 from ..input_subdivision import insertion_order
 from ..mesh import Store
-from ..order import along_curve
 from ..pool import touches
 from ..steps import now
 from ..work_sharing import Schedule, share
@@ -59,7 +59,7 @@ class Costs(NamedTuple):
 
 def prepared(points: np.ndarray, options: Options) -> tuple[Store, Schedule]:
     """The store of a run, with room for all it may need, and its sites."""
-    site, _ = along_curve(points)
+    site, _ = along_curve_in_plane(points)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
