@@ -22,7 +22,8 @@ SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 def brute_force(points):
     """Triangles with no perturbed site inside, in rational arithmetic.
 
-    Heights are |p|^2 + e_p, with infinitesimals in the lexicographic order of coordinates; the first dominates.
+    Heights are |p|^2 + e_p, with infinitesimals in the lexicographic order of coordinates: the first
+    dominates.
     """
     exact = [tuple(Fraction(x) for x in p) for p in points.tolist()]
     rank = {p: i for i, p in enumerate(sorted(set(exact)))}
