@@ -23,8 +23,10 @@ CASES = Path(__file__).parents[3].parent / "shared" / "cases"
 
 
 def crowded_cell(n, exponent):
-    """A tetrahedron of about 1; n sites of a small lattice times 2^exponent; in one of its cells two sites
-    that are 2^-70 times as near each other, and a copy of one of them."""
+    """A tetrahedron of about 1, n sites of a small lattice times 2^exponent, and near ones.
+
+    In one cell of the lattice lie two sites that are 2^-70 times as near each other, and a copy of one.
+    """
     rng = np.random.default_rng(0)
     cell = np.unique(np.ldexp(rng.integers(-8, 9, (n, 3)).astype(float), exponent), axis=0)
     a, b = [np.ldexp(1.0, exponent - 70), 0, 0], [np.ldexp(1.0, exponent - 71), 0, 0]
