@@ -1,5 +1,4 @@
-"""`dt3d triangulate` and `verify` in the plane: what is taken for planar, which options go together, and
-files."""
+"""`dt3d triangulate` and `verify` in the plane: what is planar, options that go together, files."""
 
 import re
 from functools import cache

@@ -1,5 +1,4 @@
-"""One answer from any number of threads, in any interleaving; threads that end when something goes
-wrong."""
+"""One answer from any number of threads, in any interleaving; and threads end when something goes wrong."""
 
 import threading
 import time
@@ -39,8 +38,7 @@ def eight_cores(monkeypatch):
 
 @pytest.fixture
 def yielding(monkeypatch, eight_cores):
-    """Pieces, stretches and blocks so small that threads meet often, and pauses at random between
-    stretches."""
+    """Pieces, stretches and blocks so small that threads meet often, and random pauses between stretches."""
     monkeypatch.setattr(team, "LEAST_SITES_PER_THREAD", 20)
     monkeypatch.setattr(team, "SITES_PER_CALL", 7)
     monkeypatch.setattr("dt3d._numba.threads.SECONDS_BETWEEN_LOOKS", 0.001)
