@@ -85,7 +85,7 @@ def triangulate(
 def _check_volume(sites: np.ndarray) -> None:
     """Raise DegenerateInputError unless distinct sites (n, 3) span a volume, however thin; exactly."""
     if affine_dimension(normalise(sites), CLEARLY_THICK) < 3:
-        from ..insertion.first import first_tetrahedron
+        from .._first_tetrahedron import first_tetrahedron
 
         first_tetrahedron(sites, 0)
 

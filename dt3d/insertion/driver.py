@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from .._errors import DegenerateInputError
+from .._first_tetrahedron import first_tetrahedron
 from .._memory import require
 from .._numba.cores import available_cores
 from ..ordering.along_curve import along_curve_in_space, bounds, gather
 from ..ordering.brio import insertion_rounds
 from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
-from .first import first_tetrahedron
 from .mesh import FREE, MOST_SLOTS, aligned, vertices
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from .._input import no_volume
-from ..predicates import orient3d
+from ._input import no_volume
+from .predicates import orient3d
 
 
 def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
@@ -48,7 +48,8 @@ def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
 
 def about_one(points: np.ndarray) -> np.ndarray:
     """The points times a power of two, the greatest coordinate being about 1; what underflows is rounded."""
-    return np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
+    scaled: np.ndarray = np.ldexp(points, -int(np.frexp(np.abs(points).max())[1]))
+    return scaled
 
 
 def _collinear(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> bool:
