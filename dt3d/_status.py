@@ -50,7 +50,7 @@ class Printer(Console):
 
     def on_broken_pipe(self) -> None:
         """Raise the BrokenPipeError that called this."""
-        raise  # noqa: PLE0704
+        raise
 
     def print(self, *objects: object, **options: Any) -> None:  # rich's
         """Print; an OSError of one line where that fails."""

@@ -65,7 +65,7 @@ class View:
 def draw(
     tri: Tetrahedra,
     path: str | Path,
-    views: View | Sequence[View] = View(),  # noqa: B008  frozen
+    views: View | Sequence[View] = View(),
     *,
     width: int = 1400,
     height: int = 1200,
@@ -121,7 +121,7 @@ def _add_scale(mpl: ModuleType, figure: Figure, axes: Axes, last: int, size: flo
     scale.outline.set_visible(False)
 
 
-def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:  # noqa: B008
+def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:
     """Paint a triangulation on matplotlib axes, which it clears of ticks and frame.
 
     Parameters

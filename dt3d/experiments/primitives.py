@@ -190,13 +190,26 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
         f"{', '.join(f'{n:,}' for n in SIZES)} elements. With {PROCESSORS} processors a step over n elements "
         f"takes ceil(n / {PROCESSORS}) VP steps: {largest // PROCESSORS:,} at {largest:,}."
     )
-    counts = ("stated_steps", "steps", "elements", "vp_steps", "messages", "holds")
+    counted = ("steps", "elements", "vp_steps", "messages")
     lines = [
-        (m.primitive.name, m.primitive.blelloch, m.n, m.stated_steps, m.row.steps, m.row.elements)
-        + (m.row.vp_steps, m.row.messages, m.holds)
+        (
+            m.primitive.name,
+            m.primitive.blelloch,
+            m.n,
+            m.stated_steps,
+            *(getattr(m.row, c) for c in counted),
+            m.holds,
+        )
         for m in found
     ]
-    publish(console, out, "primitives", ["scanvec", "blelloch", "n", *counts], lines, _draw(found))
+    publish(
+        console,
+        out,
+        "primitives",
+        ["scanvec", "blelloch", "n", "stated_steps", *counted, "holds"],
+        lines,
+        _draw(found),
+    )
     return found
 
 
