@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._optional import optional
+
 if TYPE_CHECKING:
     import pyvista
-
-INSTALL_VIEW = "install it with: pip install 'dt3d[view]'"
 
 
 def volumes(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
@@ -38,7 +38,7 @@ def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
     ImportError
         If PyVista is not installed.
     """
-    pv = import_pyvista()
+    pv = optional("pyvista")
     # copies, since VTK writes where an array is read-only, too
     grid = pv.UnstructuredGrid({pv.CellType.TETRA: tri.simplices}, np.array(tri.points, np.float64))
     grid.cell_data["iteration"] = np.array(tri.iteration, np.int32)
@@ -61,7 +61,7 @@ def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
     ImportError
         If PyVista is not installed.
     """
-    pv = import_pyvista()
+    pv = optional("pyvista")
     corners, faces = np.unique(surface(tri), return_inverse=True)
     points = np.asarray(tri.points, np.float64)[corners]
     return pv.PolyData.from_regular_faces(points, faces.reshape(-1, 3))
@@ -80,19 +80,9 @@ def show(tri: Any, title: str = "") -> None:
     ImportError
         If PyVista is not installed.
     """
-    plotter = import_pyvista().Plotter(title=title or "dt3d")
+    plotter = optional("pyvista").Plotter(title=title or "dt3d")
     plotter.add_mesh_clip_plane(
         to_pyvista(tri), scalars="iteration", cmap="RdYlBu_r", show_edges=True, crinkle=True
     )
     plotter.add_axes()
     plotter.show()
-
-
-def import_pyvista() -> Any:
-    """PyVista, or an ImportError that says how to install it."""
-    try:
-        import pyvista
-    except ImportError as error:
-        msg = f"this needs PyVista, which cannot be loaded ({error}); {INSTALL_VIEW}"
-        raise ImportError(msg) from error
-    return pyvista

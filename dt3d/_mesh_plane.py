@@ -1,4 +1,4 @@
-"""Triangulations in the plane, written to files and read back to be verified.
+"""Triangulations in the plane, written to files; `dt3d.reading.plane` reads them back.
 
 Formats of space get z = 0 for every point.
 """
@@ -7,46 +7,16 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from ._mesh import import_pyvista
 from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
+from ._optional import optional
 from ._output import save_figure
-from ._paths import by_extension, check_file, check_writable, import_meshio, written_aside
-from .reading.columns import as_float64
-from .reading.compressed import inner, unpacked
-from .reading.gmsh import read_gmsh
-from .reading.guarded import guarded
-from .reading.medit import read_medit
-from .reading.meshes import TETRAHEDRON, VOLUMES
-from .reading.npy import read_arrays
-from .reading.vtk_legacy import read_legacy
-from .reading.vtk_xml import read_xml
-
-TRIANGLE = 5
-"""VTK's number for this kind of cell; the readers of other formats use VTK's numbers."""
-
-FILLS_SPACE = [TETRAHEDRON, *VOLUMES]
-
-
-@dataclass(frozen=True)
-class PlaneMesh:
-    """Triangles in the plane from a file.
-
-    Attributes
-    ----------
-    points : float64 (n, 2)
-    triangles : int (m, 3)
-        As the file has them: `dt3d.threaded2d.verify` checks them before it uses them.
-    """
-
-    points: np.ndarray
-    triangles: np.ndarray
+from ._paths import by_extension, check_writable, written_aside
 
 
 def write_plane_mesh(tri: Any, path: str | Path) -> None:
@@ -89,61 +59,6 @@ def draw_plane(tri: Any, path: Path) -> None:
     save_figure(tri.plot().figure, path, dpi=200)
 
 
-def read_plane_mesh(path: str | Path) -> PlaneMesh | None:
-    """The triangles of a file that `write_plane_mesh` or another program wrote; None if it holds no
-    triangles in the plane z = 0, or cells that fill space beside them.
-
-    Reads .npz .vtu .vtk .msh .mesh, and each of them packed by gzip.
-
-    Raises
-    ------
-    OSError, ValueError
-        If the file is missing or damaged: one line that names it.
-    """
-    path = Path(path)
-    reader = READERS.get(inner(path).suffix.lower())
-    if reader is None:
-        return None
-    check_file(path)
-
-    def mesh_of(path: Path) -> PlaneMesh | None:
-        with unpacked(path) as plain:
-            return guarded(reader, plain, path)
-
-    return guarded(mesh_of, path)
-
-
-def _read_npz(path: Path) -> PlaneMesh | None:
-    found = read_arrays(path, ["points", "triangles"])
-    if found.keys() != {"points", "triangles"}:
-        return None
-    return _in_plane(path, found["points"], found["triangles"])
-
-
-def _read_cells(path: Path) -> PlaneMesh | None:
-    found = CELLS[path.suffix.lower()](path)
-    if "types" not in found or "offsets" not in found:
-        return None
-    types, offsets = np.asarray(found["types"]), np.asarray(found["offsets"])
-    chosen = types == TRIANGLE
-    if np.isin(types, FILLS_SPACE).any() or not chosen.any() or len(offsets) != len(types) + 1:
-        return None
-    starts, ends = offsets[:-1][chosen], offsets[1:][chosen]
-    if (ends - starts != 3).any() or starts.min() < 0 or ends.max() > len(found["connectivity"]):
-        msg = f"{path} is damaged: a triangle has other than three points"
-        raise ValueError(msg)
-    return _in_plane(path, found["points"], found["connectivity"][starts[:, None] + np.arange(3)])
-
-
-def _in_plane(path: Path, points: np.ndarray, triangles: np.ndarray) -> PlaneMesh | None:
-    """A mesh of points (n, 2), or (n, 3) with z = 0; None for others."""
-    if points.ndim == 2 and points.shape[1] == 3 and not points[:, 2].any():
-        points = points[:, :2]
-    if points.ndim != 2 or points.shape[1] != 2:
-        return None
-    return PlaneMesh(np.ascontiguousarray(as_float64(points, f"{path}: points")), triangles)
-
-
 def _raised(tri: Any) -> np.ndarray:
     """The points with z = 0, float64 (n, 3)."""
     return np.column_stack([tri.points, np.zeros(len(tri.points))])
@@ -162,7 +77,7 @@ def _write_npz(tri: Any, path: Path) -> None:
 
 
 def _grid(tri: Any) -> Any:
-    pv = import_pyvista()
+    pv = optional("pyvista")
     grid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     grid.cell_data["thread"] = tri.thread
     return grid
@@ -187,12 +102,12 @@ def _write_vtk(tri: Any, path: Path) -> None:
 
 
 def _write_gmsh(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}), "4.1")
 
 
 def _write_medit(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.medit.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}))
 
 
@@ -214,11 +129,4 @@ WRITERS: dict[str, Callable[[Any, Path], None]] = {
     ".ply": lambda tri, path: write_ply(_surface(tri), path),
     ".stl": lambda tri, path: write_stl(_surface(tri), path),
     ".obj": _write_obj,
-}
-
-CELLS = {".vtu": read_xml, ".vtk": read_legacy, ".msh": read_gmsh, ".mesh": read_medit}
-
-READERS: dict[str, Callable[[Path], PlaneMesh | None]] = {
-    ".npz": _read_npz,
-    **dict.fromkeys(CELLS, _read_cells),
 }

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from ._mesh import surface, to_pyvista, volumes
-from ._paths import by_extension, check_writable, import_meshio, written_aside
+from ._optional import optional
+from ._paths import by_extension, check_writable, written_aside
 
 
 def write_mesh(tri: Any, path: str | Path) -> None:
@@ -102,18 +103,18 @@ def _in_memory(writer: Any, grid: Any) -> Any:
 
 
 def _write_gmsh(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}), "4.1")
 
 
 def _write_medit(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     reference = {"medit:ref": [np.asarray(tri.iteration)]}
     meshio.medit.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}, cell_data=reference))
 
 
 def write_ply(tri: Any, path: Path) -> None:
-    meshio = import_meshio()
+    meshio = optional("meshio")
     meshio.ply.write(path, meshio.Mesh(*_hull(tri)), binary=True)
 
 

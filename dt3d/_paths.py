@@ -1,31 +1,18 @@
-"""What must be true of a path before it is read or written, and the packages that files need."""
+"""What must be true of a path before it is read or written."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
 from contextlib import suppress
-from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from scanvec._writing import check_writable, written_aside
 
-from ._mesh import INSTALL_VIEW
+__all__ = ["by_extension", "check_apart", "check_file", "check_writable", "written_aside"]
 
-__all__ = [
-    "by_extension",
-    "check_apart",
-    "check_file",
-    "check_writable",
-    "import_for_format",
-    "import_meshio",
-    "written_aside",
-]
-
-INSTALL_FORMATS = "install it with: pip install 'dt3d[formats]'"
-
-F = TypeVar("F", bound=Callable)
+F = TypeVar("F", bound=Callable[..., object])
 
 
 def check_file(path: Path) -> Path:
@@ -54,22 +41,3 @@ def by_extension(path: Path, table: dict[str, F], verb: str) -> F:
     except KeyError:
         msg = f"cannot {verb} {path}: unknown extension {path.suffix!r}; known are {', '.join(sorted(table))}"
         raise ValueError(msg) from None
-
-
-def import_meshio() -> Any:
-    """meshio, or an ImportError that says how to install it."""
-    try:
-        import meshio
-    except ImportError as error:
-        msg = f"this needs meshio, which cannot be loaded ({error}); {INSTALL_VIEW}"
-        raise ImportError(msg) from error
-    return meshio
-
-
-def import_for_format(module: str) -> Any:
-    """A module that a format needs, or an ImportError that says how to install it."""
-    try:
-        return import_module(module)
-    except ImportError as error:
-        msg = f"this file needs the package {module.partition('.')[0]} ({error}); {INSTALL_FORMATS}"
-        raise ImportError(msg) from error

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import scanvec as sv
 
 
 @dataclass(frozen=True)
@@ -13,9 +17,10 @@ class Statistics:
     Attributes
     ----------
     iterations : int
-        Rounds of face expansion, the last of which may find the hull only (the table's "depth"). Exactly, on
-        ``scanvec.Device()``, and of 2,000 sites or more that fill space evenly: the first tetrahedra, then
-        waves, each of some of the open faces.
+        Rounds of face expansion (the table's "depth"). The last one may find facets of the hull only. Whole
+        steps compiled for a device, which exact decisions on ``scanvec.Device()`` take for 2,000 sites or
+        more that fill space evenly, count differently: the first tetrahedra are one iteration, and each
+        wave, which expands a part of the open faces, is another.
     face_expansions : int
         Faces expanded ("FE").
     sites_searched : int
@@ -40,7 +45,7 @@ class Statistics:
     tetrahedra_per_iteration: tuple[int, ...]
     inconsistencies: int
     seconds: dict[str, float]
-    ledger: Any
+    ledger: sv.Ledger | None
 
 
 @dataclass(frozen=True)
@@ -56,10 +61,10 @@ class InsertionStatistics:
     created : int
         Tetrahedra made, ghosts included; most are destroyed by later sites.
     threads : int
-        That inserted at the same time, at most.
+        The most threads that inserted at the same time.
     deferred : int
-        Times that a site was left for a later pass, since its cavity had sites of several threads. This,
-        and with it the counts above, depends on how many threads there are.
+        How often a site was left for a later pass, because its cavity reached into the part of another
+        thread. This count, and with it those above, depends on the number of threads.
     inconsistencies : int
         Always 0: every decision is exact.
     seconds : dict of str to float
@@ -77,21 +82,29 @@ class InsertionStatistics:
 
 @dataclass(frozen=True)
 class Progress:
-    """What the callback gets: after every iteration of an extrapolation, every stretch of an insertion.
+    """What the callback gets after each iteration: how far the triangulation has come.
 
     Attributes
     ----------
     iteration : int
-        1, 2, ...; the number of the stretch.
-    open_faces : int
-        Faces that the next iteration will expand, 0 after the last; sites not yet inserted.
+        1, 2, ... By extrapolation the number of the iteration, by insertion that of the stretch of up to
+        100,000 sites.
+    remaining : int
+        What is left to do, 0 after the last iteration. By extrapolation the faces that the next iteration
+        expands, by insertion the sites that are not inserted yet.
     tetrahedra : int
         Found so far.
     seconds : float
-        Since the call.
+        Wall time since the call.
     """
 
     iteration: int
-    open_faces: int
+    remaining: int
     tetrahedra: int
     seconds: float
+
+    @property
+    def open_faces(self) -> int:
+        """The old name of `remaining`; goes with the next release."""
+        warnings.warn("Progress.open_faces is now Progress.remaining", DeprecationWarning, stacklevel=2)
+        return self.remaining

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._kernel_cache import cached_njit
 from ._memory import require
+from ._numba.kernel_cache import cached_njit
 
 
 @cached_njit

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import time
-import warnings
 from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -14,19 +13,9 @@ import numpy as np
 import scanvec as sv
 
 from . import _topology
-from ._errors import InconsistencyError, InconsistencyWarning
-from ._input import (
-    affine_dimension,
-    check_points,
-    check_seed,
-    check_volume,
-    exactly_scaled,
-    first_copies,
-    word_of,
-)
+from ._input import check_points, check_seed, exactly_scaled, word_of
 from ._results import Names, Result, check_array, check_complex, check_range, frozen
 from ._stats import InsertionStatistics, Progress, Statistics
-from .extrapolation import normalise, perturb
 from .extrapolation import triangulate as extrapolate
 from .subset import Subset
 
@@ -38,7 +27,6 @@ if TYPE_CHECKING:
 
 METHODS = ("auto", "insertion", "extrapolation")
 ROBUSTNESS = ("exact", "perturb")
-CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
 
 
 class Delaunay(Result):
@@ -175,7 +163,7 @@ class Delaunay(Result):
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
     ) -> None:
-        from ._compiling import announce_compilation
+        from ._numba.announce import announce_compilation
         from .insertion import triangulate
 
         announce_compilation()
@@ -211,53 +199,14 @@ class Delaunay(Result):
         report: Callable[[int, int, int], None],
         begun: float,
     ) -> None:
-        if exact:
-            used, duplicates = first_copies(self.points)
-            sites = exactly_scaled(self.points[used])
-            _check_volume(sites)
-        else:
-            sites, used, duplicates = _prepare(self.points, working, seed)
-        outcome = extrapolate(machine, sites, exact, report)
+        outcome = extrapolate(self.points, machine, exact=exact, dtype=working, seed=seed, report=report)
         self._keep(
-            simplices=used[outcome.simplices].astype(np.int32),
+            simplices=outcome.simplices,
             neighbors=outcome.neighbors,
             iteration=outcome.iteration,
-            duplicates=duplicates,
+            duplicates=outcome.duplicates,
+            stats=outcome.statistics(machine.ledger, time.perf_counter() - begun),
         )
-        inconsistencies = 0 if exact else outcome.inconsistencies + self._count_faults(used)
-        self._keep(
-            stats=Statistics(
-                iterations=len(outcome.per_iteration),
-                face_expansions=outcome.face_expansions,
-                sites_searched=outcome.sites_searched,
-                exact_decisions=outcome.exact_decisions,
-                tetrahedra_per_iteration=tuple(outcome.per_iteration),
-                inconsistencies=inconsistencies,
-                seconds=outcome.seconds | {"total": time.perf_counter() - begun},
-                ledger=machine.ledger,
-            )
-        )
-        if inconsistencies:
-            msg = (
-                f"the triangulation has {inconsistencies} inconsistencies: tetrahedra that contradict others "
-                f"were left out, so it may have holes or overlaps. Use method='insertion' (exact), "
-                f"dtype='float64', or another seed"
-            )
-            warnings.warn(msg, InconsistencyWarning, stacklevel=3)
-
-    def _count_faults(self, used: np.ndarray) -> int:
-        """Open hull edges and flat or turned tetrahedra; raises where a site was lost."""
-        missing = np.setdiff1d(used, self.simplices)
-        if len(missing):
-            msg = (
-                f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation "
-                f"does not decide this set. Use method='insertion', which is exact, or dtype='float64', or "
-                f"another seed"
-            )
-            raise InconsistencyError(msg, len(missing))
-        corners = normalise(self.points)[self.simplices]
-        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1])
-        return _topology.open_edges(self.convex_hull) + int((volumes <= 0).sum())
 
     @cached_property
     def convex_hull(self) -> np.ndarray:
@@ -355,14 +304,6 @@ class Delaunay(Result):
         return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
 
 
-def _check_volume(sites: np.ndarray) -> None:
-    """Raise DegenerateInputError unless distinct sites (n, 3) span a volume, however thin; exactly."""
-    if affine_dimension(normalise(sites), CLEARLY_THICK) < 3:
-        from .insertion.first import first_tetrahedron
-
-        first_tetrahedron(sites, 0)
-
-
 def _check_method(method: Any, robustness: Any, machine: Any, dtype: np.dtype) -> str:
     """The method that the options ask for."""
     if method not in METHODS:
@@ -409,28 +350,3 @@ def _check_dtype(dtype: Any) -> np.dtype:
         msg = f"dtype must be float64 or float32, got {dtype!r}"
         raise ValueError(msg)
     return working
-
-
-def _prepare(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Distinct sites, normalised and perturbed; their indices among the points; and the duplicates."""
-    used, duplicates = first_copies(points)
-    used.sort()  # buckets have an order of their own; this one shows in the rows of the result
-    distinct = normalise(points[used])
-    # sixteen times what rounding the coordinates can do to a plane
-    check_volume(distinct, 16 * float(np.finfo(dtype).eps))
-    sites = perturb(distinct, dtype, seed)
-    kept, merged = first_copies(sites)
-    kept.sort()
-    if len(merged):
-        msg = (
-            f"{len(merged)} sites differ from others by less than {dtype} resolves in the extent of the set; "
-            f"they are listed in `duplicates`"
-        )
-        warnings.warn(msg, InconsistencyWarning, stacklevel=4)
-        pairs = np.concatenate([duplicates, used[merged].astype(np.int32)])
-        # a copy of a site that was merged is a copy of what that was merged into
-        final = np.arange(len(points), dtype=np.int32)
-        final[pairs[:, 0]] = pairs[:, 1]
-        duplicates = np.column_stack([pairs[:, 0], final[pairs[:, 1]]])
-        duplicates = duplicates[np.argsort(duplicates[:, 0])].astype(np.int32)
-    return np.ascontiguousarray(sites[kept]), used[kept], duplicates

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._mesh import INSTALL_VIEW
+from ._optional import optional
 from ._output import save_figure
 from ._paths import check_writable
 from ._topology import OUTWARD
@@ -244,12 +244,6 @@ def _light(color: np.ndarray, normal: np.ndarray, depth: np.ndarray) -> np.ndarr
 
 
 def _import_matplotlib() -> Any:
-    try:
-        import matplotlib
-        import matplotlib.cm
-        import matplotlib.collections
-        import matplotlib.figure
-    except ImportError as error:
-        msg = f"a picture needs matplotlib, which cannot be loaded ({error}); {INSTALL_VIEW}"
-        raise ImportError(msg) from error
-    return matplotlib
+    for module in ("cm", "collections", "figure"):
+        optional(f"matplotlib.{module}", "a picture")
+    return optional("matplotlib", "a picture")

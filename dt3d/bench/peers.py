@@ -6,13 +6,14 @@ afterwards. None of them but dt3d is needed: those that are not installed are le
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
+
+from .._numba.cores import available_cores
 
 
 def _simplices_of(result: Any) -> np.ndarray:
@@ -84,7 +85,7 @@ def _gmsh(threads: int | None) -> Calls:
 
     gmsh.initialize(interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
-    gmsh.option.setNumber("General.NumThreads", threads or os.cpu_count() or 1)
+    gmsh.option.setNumber("General.NumThreads", threads or available_cores())
 
     def triangulate(flat: np.ndarray) -> Any:
         return gmsh.algorithm.tetrahedralize(flat)[0]

@@ -2,45 +2,44 @@
 
 from __future__ import annotations
 
-import os
 import platform
 from collections.abc import Sequence
 from datetime import date
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rich.markup import escape
 from rich.table import Table
 
 from .. import _output as output
+from .._numba.cores import available_cores
 from .rounds import Measured
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 NAME = "bench"  # of the files
+HEADER = ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
+          "verified", "runs", "ended"]  # fmt: skip
 MARKERS = "osD^vP*X"
 
 
 def publish(measured: Sequence[Measured], out: Path, console: Console) -> None:
     """Print the table, and write ``bench.csv`` and ``bench.png`` to the folder ``out``."""
     console.print(table(measured))
-    csv, png = written(out)
-    write_csv(measured, csv)
-    draw(measured, png)
-    console.print(f"wrote {csv} and {png}", markup=False)
+    output.publish(console, out, NAME, HEADER, csv_rows(measured), draw(measured), dpi=150)
 
 
 def written(out: Path) -> tuple[Path, Path]:
     """The files that `publish` writes into a folder: the table and the picture."""
-    return out / f"{NAME}.csv", out / f"{NAME}.png"
+    return output.written(out, NAME)
 
 
 def machine() -> str:
     """The day, the processor and its cores, in words."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return f"{date.today().isoformat()}, {_processor()}, {cores} cores"
+    return f"{date.today().isoformat()}, {_processor()}, {available_cores()} cores"
 
 
 def _processor() -> str:
@@ -99,28 +98,21 @@ def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
     ]
 
 
-def write_csv(measured: Sequence[Measured], path: Path) -> None:
-    """A line for each library and set; several runs are separated by spaces."""
-    names = ["set", "sites", "library", "median seconds", "ratio", "tetrahedra", "peak bytes",
-             "verified", "runs", "ended"]  # fmt: skip
-    lines = [
+def csv_rows(measured: Sequence[Measured]) -> list[list[object]]:
+    """The rows of the CSV, one for each library and set; several runs are separated by spaces."""
+    return [
         [row.set_name, row.sites, row.label, row.seconds, ratio(row, rows), row.tetrahedra,
          row.memory, row.verified, " ".join(f"{s:.6f}" for s in row.runs), row.ended]
         for rows in by_set(measured)
         for row in rows
     ]  # fmt: skip
-    output.write_csv(path, names, lines)
 
 
-def draw(measured: Sequence[Measured], path: Path) -> None:
-    """Microseconds a site, a column for each set and a marker for each library."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
+def draw(measured: Sequence[Measured]) -> Figure:
+    """Microseconds per site, a column for each set and a marker for each library."""
     sets = by_set(measured)
-    figure = Figure(figsize=(max(6.0, 1.2 * len(sets) + 3.0), 4.2), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes: Any = figure.subplots()
+    figure = output.new_figure(max(6.0, 1.2 * len(sets) + 3.0), 4.2)
+    axes = figure.subplots()
     libraries = list(dict.fromkeys(row.label for row in measured))
     for k, library in enumerate(libraries):
         points = [
@@ -140,4 +132,4 @@ def draw(measured: Sequence[Measured], path: Path) -> None:
     axes.grid(axis="y", alpha=0.3)
     axes.legend()
     axes.set_title(machine(), fontsize="small")
-    output.save_figure(figure, path, dpi=150)
+    return figure

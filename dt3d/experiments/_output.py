@@ -1,20 +1,21 @@
-"""What every experiment writes: a CSV, and a picture without a screen."""
+"""What the experiments print, and the figures that they draw on."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from .._output import save_figure, write_csv
+from .._output import new_figure, publish
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
 
-__all__ = ["new_table", "off", "panels", "print_model", "save_figure", "write_csv", "wrote"]
+__all__ = ["new_table", "off", "panels", "print_model", "publish"]
 
 
 def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table:
@@ -30,23 +31,15 @@ def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table
     return table
 
 
-def panels(count: int, width: float = 5.0) -> tuple[Any, list[Any]]:
+def panels(count: int, width: float = 5.0) -> tuple[Figure, list[Axes]]:
     """A figure, and axes side by side."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width * count, 3.8), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = new_figure(width * count, 3.8)
     return figure, list(figure.subplots(1, count, squeeze=False)[0])
 
 
 def print_model(console: Console, model: sv.Model) -> None:
     """A model's constants and where each is from."""
     console.print(str(model), markup=False, soft_wrap=True)
-
-
-def wrote(console: Console, out: Path, name: str) -> None:
-    console.print(f"wrote {out / name}.csv and {out / name}.png", markup=False)
 
 
 def off(value: float, paper: float) -> float:

@@ -20,7 +20,7 @@ import scanvec.plot
 from .._stats import Statistics
 from ..delaunay import Delaunay
 from . import sets
-from ._output import new_table, panels, save_figure, write_csv, wrote
+from ._output import new_table, panels, publish
 from .paper import PROCESSORS
 from .runs import MAIN_LOOP, SEED, cm5
 
@@ -173,7 +173,6 @@ def balance(
         "what they cannot mend is the work itself, since a few cells hold most sites. Where cells fill "
         "unevenly, the search takes a tree of boxes instead."
     )
-    write_csv(out / "balance.csv", ["sites", "scheme", "busiest", "lock_step", "sites_an_expansion"], lines)
-    save_figure(figure, out / "balance.png", dpi=120)
-    wrote(console, out, "balance")
+    header = ["sites", "scheme", "busiest", "lock_step", "sites_an_expansion"]
+    publish(console, out, "balance", header, lines, figure)
     return result

@@ -18,11 +18,12 @@ from ..extrapolation import normalise
 from ..extrapolation.points import Point
 from ..extrapolation.signed_distance import frame, signed_distance
 from . import calibration
-from ._output import new_table, panels, print_model, save_figure, write_csv, wrote
+from ._output import new_table, panels, print_model, publish
 from .paper import BREAK_EVEN, PROCESSORS, RANDOM
 from .runs import MAIN_LOOP, SEED, cm5, points_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 MOST_BY_BRUTE_FORCE = 2000  # sites; its time grows with their square
@@ -75,9 +76,7 @@ def run(n: int, seed: int = SEED, *, brute_force: bool = True) -> Size:
     """Triangulate, and search all faces of every iteration again by brute force."""
     points = points_of(f"rand.{n}", seed)
     machine, left = cm5(), []
-    tri = Delaunay(
-        points, robustness="perturb", machine=machine, callback=lambda p: left.append(p.open_faces)
-    )
+    tri = Delaunay(points, robustness="perturb", machine=machine, callback=lambda p: left.append(p.remaining))
     assert isinstance(tri.stats, Statistics)
     paper = next(row.seconds for row in RANDOM if row.sites == n)
     loop = machine.ledger.of(*MAIN_LOOP)
@@ -163,13 +162,12 @@ def figure2(
             f"With any one row of Table 1 left out of the calibration it would be: {others}. They differ "
             "since brute force only computes: it hangs on what an operation costs, which 32 nodes leave open."
         )
-    write_csv(out / "figure2.csv", ["sites", "paper_seconds", "model_seconds", "brute_force_seconds"], lines)
-    _draw(lines, crossing, out / "figure2.png")
-    wrote(console, out, "figure2")
+    header = ["sites", "paper_seconds", "model_seconds", "brute_force_seconds"]
+    publish(console, out, "figure2", header, lines, _draw(lines, crossing))
     return sizes, crossing
 
 
-def _draw(lines: list[list[Any]], crossing: float | None, path: Path) -> None:
+def _draw(lines: list[list[Any]], crossing: float | None) -> Figure:
     figure, (ax,) = panels(1, 6.0)
     n = [line[0] for line in lines]
     ax.loglog(n, [line[1] for line in lines], "s--", label="bucketing, paper")
@@ -182,4 +180,4 @@ def _draw(lines: list[list[Any]], crossing: float | None, path: Path) -> None:
         ax.axvline(crossing, color="0.4", linestyle="--", label="break-even, model")
     ax.set(xlabel="sites", ylabel="seconds")
     ax.legend(fontsize=8)
-    save_figure(figure, path, dpi=120)
+    return figure

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import new_table, panels, save_figure, write_csv, wrote
+from ._output import new_table, panels, publish
 from .paper import MOST_BY_ITERATION, RANDOM
 from .runs import SEED, Measured, measure, points_of
 
@@ -49,25 +49,19 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
         f"By iteration {MOST_BY_ITERATION} at least {100 * least:.1f} % are found; paper: most. The last "
         "iteration may find the hull only."
     )
-    write_csv(
-        out / "figure3.csv",
-        ["set", "iteration", "tetrahedra", "tetrahedra_so_far"],
-        [
-            (name, k, new, total)
-            for name, m in found.items()
-            for k, (new, total) in enumerate(
-                zip(m.per_iteration, accumulate(m.per_iteration), strict=True), 1
-            )
-        ],
-    )
+    header = ["set", "iteration", "tetrahedra", "tetrahedra_so_far"]
+    lines = [
+        (name, k, new, total)
+        for name, m in found.items()
+        for k, (new, total) in enumerate(zip(m.per_iteration, accumulate(m.per_iteration), strict=True), 1)
+    ]
     figure, (ax,) = panels(1, 6.0)
     for name, m in found.items():
         some = [(k, new) for k, new in enumerate(m.per_iteration, 1) if new]
         ax.semilogy(*zip(*some, strict=True), "o-", label=name)
     ax.set(xlabel="iteration", ylabel="tetrahedra found")
     ax.legend(fontsize=8)
-    save_figure(figure, out / "figure3.png", dpi=120)
-    wrote(console, out, "figure3")
+    publish(console, out, "figure3", header, lines, figure)
     return found
 
 

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 
 import scanvec as sv
 
-from ._output import new_table, panels, print_model, save_figure, write_csv, wrote
+from ._output import new_table, panels, print_model, publish
 from .runs import SEED, measure, points_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 MODELS = (sv.EREW_PRAM, sv.CRCW_PRAM, sv.SCAN, sv.HYPERCUBE, sv.MESH2D, sv.CM2, sv.CM5)
@@ -59,17 +60,12 @@ def machines(out: Path, console: Console, *, sites: int = 2000, seed: int = SEED
     )
     for m in MODELS:
         print_model(console, m)
-    write_csv(
-        out / "machines.csv",
-        ["processors", *seconds],
-        [[p, *(by[p] for by in seconds.values())] for p in ledgers],
-    )
-    _draw(seconds, out / "machines.png")
-    wrote(console, out, "machines")
+    lines = [[p, *(by[p] for by in seconds.values())] for p in ledgers]
+    publish(console, out, "machines", ["processors", *seconds], lines, _draw(seconds))
     return ledgers
 
 
-def _draw(seconds: dict[str, dict[int, float]], path: Path) -> None:
+def _draw(seconds: dict[str, dict[int, float]]) -> Figure:
     figure, axes = panels(2, 6.0)
     for name, by in seconds.items():
         p = list(by)
@@ -80,4 +76,4 @@ def _draw(seconds: dict[str, dict[int, float]], path: Path) -> None:
     axes[1].set(xlabel="processors", ylabel=f"speed-up over {p[0]} processors")
     for ax in axes:
         ax.legend(fontsize=8)
-    save_figure(figure, path, dpi=120)
+    return figure

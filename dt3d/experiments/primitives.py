@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 import scanvec as sv
 
-from ._output import new_table, panels, save_figure, write_csv, wrote
+from ._output import new_table, panels, publish
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 PROCESSORS = 32
@@ -36,6 +37,9 @@ class Inputs(NamedTuple):
     set: sv.Vector
 
 
+Elements = Callable[[int, int], tuple[int, int]]
+
+
 @dataclass(frozen=True)
 class Primitive:
     """An operation: its names, a call, and what it is said to take.
@@ -52,9 +56,9 @@ class Primitive:
 
     name: str
     blelloch: str
-    call: Callable[[Inputs], Any]
+    call: Callable[[Inputs], object]
     steps: Callable[[int], int]
-    elements: Callable[[int, int], tuple[int, int]]
+    elements: Elements
 
 
 def _each_step_all(n: int, steps: int) -> tuple[int, int]:
@@ -70,7 +74,11 @@ def _up_to_twice(n: int, steps: int) -> tuple[int, int]:
 
 
 def _make(
-    name: str, blelloch: str, call: Callable, steps: int, elements: Callable = _each_step_all
+    name: str,
+    blelloch: str,
+    call: Callable[[Inputs], object],
+    steps: int,
+    elements: Elements = _each_step_all,
 ) -> Primitive:
     return Primitive(name, blelloch, call, lambda bits: steps, elements)
 
@@ -180,21 +188,17 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
         f"{', '.join(f'{n:,}' for n in SIZES)} elements. With {PROCESSORS} processors a step over n elements "
         f"takes ceil(n / {PROCESSORS}) VP steps: {largest // PROCESSORS:,} at {largest:,}."
     )
-    write_csv(
-        out / "primitives.csv",
-        ["scanvec", "blelloch", "n", "stated_steps", "steps", "elements", "vp_steps", "messages", "holds"],
-        [
-            (m.primitive.name, m.primitive.blelloch, m.n, m.stated_steps, m.row.steps, m.row.elements)
-            + (m.row.vp_steps, m.row.messages, m.holds)
-            for m in found
-        ],
-    )
-    _draw(found, out / "primitives.png")
-    wrote(console, out, "primitives")
+    counts = ("stated_steps", "steps", "elements", "vp_steps", "messages", "holds")
+    lines = [
+        (m.primitive.name, m.primitive.blelloch, m.n, m.stated_steps, m.row.steps, m.row.elements)
+        + (m.row.vp_steps, m.row.messages, m.holds)
+        for m in found
+    ]
+    publish(console, out, "primitives", ["scanvec", "blelloch", "n", *counts], lines, _draw(found))
     return found
 
 
-def _draw(found: list[Measurement], path: Path) -> None:
+def _draw(found: list[Measurement]) -> Figure:
     """A row for each operation: its steps, stated and counted, and its elements over n at every size."""
     figure, (left, right) = panels(2, 4.5)
     figure.set_figheight(1 + 0.21 * len(CATALOGUE))
@@ -216,4 +220,4 @@ def _draw(found: list[Measurement], path: Path) -> None:
         ax.set_xticks([1, 2, 5, 10, 20, 50], ["1", "2", "5", "10", "20", "50"])
         ax.minorticks_off()
         ax.legend(fontsize=8, loc="upper right")
-    save_figure(figure, path, dpi=120)
+    return figure

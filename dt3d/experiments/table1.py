@@ -12,11 +12,12 @@ import numpy as np
 import scanvec as sv
 
 from . import calibration
-from ._output import new_table, off, panels, print_model, save_figure, write_csv, wrote
+from ._output import new_table, off, panels, print_model, publish
 from .paper import PROCESSORS, RANDOM, TABLE1, PaperRow
 from .runs import SEED, Measured, cm5, measure, points_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 
@@ -84,9 +85,7 @@ def table1(
         )
     _print(measured, console, seed)
     seconds = _times(measured, console)
-    _write_csv(measured, seconds, out / "table1.csv")
-    _draw(measured, seconds, out / "table1.png")
-    wrote(console, out, "table1")
+    publish(console, out, "table1", *_lines(measured, seconds), _draw(measured, seconds))
     return measured
 
 
@@ -159,7 +158,8 @@ def _times(measured: list[Row], console: Console) -> dict[str, float]:
     return seconds
 
 
-def _write_csv(measured: list[Row], seconds: dict[str, float], path: Path) -> None:
+def _lines(measured: list[Row], seconds: dict[str, float]) -> tuple[list[str], list[list[Any]]]:
+    """The header and the rows of the CSV."""
     columns = ("tetrahedra", "depth", "face_expansions", "searched")
     names = [f"{who}_{c}" for c in columns for who in ("paper", "ours")]
     header = ["set", "sites", *names, "paper_seconds", "model_seconds", "wall_seconds"]
@@ -169,10 +169,10 @@ def _write_csv(measured: list[Row], seconds: dict[str, float], path: Path) -> No
         times = [row.paper.seconds, seconds.get(row.paper.name, ""), row.ours.seconds]
         others = " ".join(str(m.tetrahedra) for m in row.others)
         lines.append([row.paper.name, row.paper.sites, *values, *times, row.ours.inconsistencies, others])
-    write_csv(path, [*header, "inconsistencies", "other_sets_tetrahedra"], lines)
+    return [*header, "inconsistencies", "other_sets_tetrahedra"], lines
 
 
-def _draw(measured: list[Row], seconds: dict[str, float], path: Path) -> None:
+def _draw(measured: list[Row], seconds: dict[str, float]) -> Figure:
     random = [r for r in measured if r.random]
     n = [r.paper.sites for r in random]
     columns: tuple[tuple[str, Callable[[Any, int], float]], ...] = (
@@ -201,4 +201,4 @@ def _draw(measured: list[Row], seconds: dict[str, float], path: Path) -> None:
         ax.minorticks_off()
     axes[0].legend()
     axes[3].legend()
-    save_figure(figure, path, dpi=120)
+    return figure

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING
 import scanvec as sv
 
 from . import calibration
-from ._output import new_table, off, panels, print_model, save_figure, write_csv, wrote
+from ._output import new_table, off, panels, print_model, publish
 from .paper import PROCESSORS, RANDOM, TABLE2
 from .runs import SEED, cm5, measure, paper_row, points_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 TIME_BOUND, SPEEDUP_BOUND = 0.25, 0.20  # how far a prediction may be off
@@ -141,13 +142,9 @@ def table2(out: Path, console: Console, *, most_sites: int = 16000, seed: int = 
     print_model(console, model)
     tried = [(packet, predict(measured, packet)[1]) for packet in PACKETS]
     _verdict(cells, tried, ranges(measured), console)
-    write_csv(
-        out / "table2.csv",
-        ["set", "nodes", "paper_seconds", "model_seconds", "paper_speedup", "model_speedup"],
-        [(c.name, c.nodes, c.paper, c.predicted, c.paper_speedup, c.predicted_speedup) for c in cells],
-    )
-    _draw(cells, out / "table2.png")
-    wrote(console, out, "table2")
+    header = ["set", "nodes", "paper_seconds", "model_seconds", "paper_speedup", "model_speedup"]
+    lines = [(c.name, c.nodes, c.paper, c.predicted, c.paper_speedup, c.predicted_speedup) for c in cells]
+    publish(console, out, "table2", header, lines, _draw(cells))
     return cells
 
 
@@ -204,7 +201,7 @@ def _verdict(
             )
 
 
-def _draw(cells: list[Cell], path: Path) -> None:
+def _draw(cells: list[Cell]) -> Figure:
     figure, axes = panels(2)
     names = list(dict.fromkeys(c.name for c in cells))
     for name, colour in zip(names, ("tab:blue", "tab:orange"), strict=False):
@@ -226,4 +223,4 @@ def _draw(cells: list[Cell], path: Path) -> None:
     if cells:
         axes[0].legend()
         axes[1].legend()
-    save_figure(figure, path, dpi=120)
+    return figure

@@ -14,13 +14,14 @@ import scanvec as sv
 from .._errors import InconsistencyError, InconsistencyWarning
 from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
-from ..extrapolation import normalise, perturb, triangulate
+from ..extrapolation import extrapolate, normalise, perturb
 from ..extrapolation.perturbation import MAGNITUDE
-from ._output import new_table, panels, save_figure, write_csv, wrote
+from ._output import new_table, panels, publish
 from .paper import TABLE3, TOO_MANY
 from .runs import SEED, points_of
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from rich.console import Console
 
 # The paper does not say how large its perturbation is. For double precision dt3d takes one that rounds away
@@ -65,7 +66,7 @@ def attempt(points: np.ndarray, mode: str) -> Outcome:
 def _with_the_perturbation_of_double(points: np.ndarray) -> Outcome:
     """Single precision, but sites moved no further than in double precision."""
     sites = perturb(normalise(points), np.dtype(np.float64), seed=0).astype(np.float32)
-    found = triangulate(sv.Device(), sites, False)
+    found = extrapolate(sv.Device(), sites, False)
     missing = len(np.setdiff1d(np.arange(len(sites)), found.simplices))
     corners = sites[found.simplices].astype(float)
     flat = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0).sum())
@@ -113,25 +114,21 @@ def table3(
         f"Moved by {_power(np.float64)} as in double precision, where coordinates round to 2^-24, ties stay "
         f"undecided; {_power(np.float32)}, dt3d's choice for single precision, is the larger perturbation."
     )
-    write_csv(
-        out / "table3.csv",
-        ["set", "paper_single", *(f"{m}_{c}" for m in MODES for c in ("tetrahedra", "inconsistencies"))],
-        [
-            [name, TABLE3[name]]
-            + [x for o in by_mode.values() for x in (o.tetrahedra if o.finished else "", str(o))]
-            for name, by_mode in outcomes.items()
-        ],
-    )
-    _draw(outcomes, others, out / "table3.png")
-    wrote(console, out, "table3")
+    header = ["set", "paper_single", *(f"{m}_{c}" for m in MODES for c in ("tetrahedra", "inconsistencies"))]
+    lines = [
+        [name, TABLE3[name]]
+        + [x for o in by_mode.values() for x in (o.tetrahedra if o.finished else "", str(o))]
+        for name, by_mode in outcomes.items()
+    ]
+    publish(console, out, "table3", header, lines, _draw(outcomes, others))
     return outcomes
 
 
-def _power(dtype: Any) -> str:
+def _power(dtype: type[np.floating]) -> str:
     return f"2^{int(np.log2(MAGNITUDE[np.dtype(dtype)]))}"
 
 
-def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcome]], path: Path) -> None:
+def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcome]]) -> Figure:
     """A bar for the paper and for each mode, with its number; a hatched one to the top for too many."""
     figure, (ax,) = panels(1, 8.0)
     colours = ("tab:orange", "tab:blue", "tab:cyan", "tab:green", "black")
@@ -157,4 +154,4 @@ def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcom
     ax.set_xticks(range(len(outcomes)), list(outcomes))
     ax.set(ylabel="inconsistencies (hatched: too many, given up)", ylim=(0, top))
     ax.legend(fontsize=8, loc="upper left")
-    save_figure(figure, path, dpi=120)
+    return figure

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from . import filtered, filtered2d
 from .work import scaled, work_array
 

@@ -17,7 +17,7 @@ The bounds, as in `filtered`, with differences that are exact and at most 5 u^2 
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from . import double_double as dd
 from .double_double import two_sum
 from .exact import in_sphere_exact, orient3d_exact

@@ -9,7 +9,7 @@ The bounds, with differences that are exact and at most 5 u^2 for each rounding:
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from . import double_double as dd
 from .adaptive import NOTHING, on_lattice
 from .double_double import two_sum

@@ -14,7 +14,7 @@ from typing import Any
 from numba import types
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 
 
 @intrinsic

@@ -19,7 +19,7 @@ import numpy as np
 from numba import types
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .work import SLACK
 
 BITS = 27

@@ -21,7 +21,7 @@ Contraction to fused multiply-add leaves out roundings and adds none, so both ho
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .adaptive import in_sphere_adaptive, orient3d_adaptive
 from .work import SLACK
 

@@ -22,9 +22,9 @@ from typing import Any
 
 from numba.extending import intrinsic
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
+from .._numba.noinline import call_noinline
 from .adaptive2d import in_circle_adaptive, orient2d_adaptive
-from .outlined import call_outlined
 from .work import SLACK
 
 ORIENT2D_BOUND = 9.0 * 2.0**-53
@@ -35,14 +35,14 @@ IN_CIRCLE_BOUND = 134.0 * 2.0**-53
 def _orient2d_open(
     typingctx: Any, points: Any, a: Any, b: Any, c: Any, det: Any, x: Any, y: Any, w: Any
 ) -> Any:
-    return call_outlined(typingctx, orient2d_adaptive, (points, a, b, c, det, x, y, w))
+    return call_noinline(typingctx, orient2d_adaptive, (points, a, b, c, det, x, y, w))
 
 
 @intrinsic
 def _in_circle_open(
     typingctx: Any, points: Any, a: Any, b: Any, c: Any, d: Any, det: Any, x: Any, y: Any, w: Any
 ) -> Any:
-    return call_outlined(typingctx, in_circle_adaptive, (points, a, b, c, d, det, x, y, w))
+    return call_noinline(typingctx, in_circle_adaptive, (points, a, b, c, d, det, x, y, w))
 
 
 @cached_njit

@@ -9,7 +9,7 @@ vertex removal in a 3D Delaunay triangulation, SODA 2003).
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .filtered import in_sphere, orient3d
 
 

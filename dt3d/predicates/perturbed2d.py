@@ -6,7 +6,7 @@ coordinates, the first infinitely larger than the next.
 
 from __future__ import annotations
 
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .filtered2d import in_circle, orient2d
 
 

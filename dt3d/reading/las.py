@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._paths import import_for_format
+from .._optional import optional
 from .child import read_in_child
 
 WITH_WAVES = (4, 5, 9, 10)
@@ -29,7 +29,7 @@ def read_las(path: Path) -> np.ndarray:
     ImportError
         If laspy, or for .laz its part lazrs, is not installed.
     """
-    laspy = import_for_format("laspy")
+    laspy = optional("laspy", "this file")
     _check_records(path)
     with _silent("laspy"), laspy.open(path) as file:
         header = file.header
@@ -45,7 +45,7 @@ def read_las(path: Path) -> np.ndarray:
                 raise ValueError(msg)
         points = np.empty((0, 3)) if packed else np.array(file.read().xyz, np.float64)
     if packed:
-        import_for_format("lazrs")
+        optional("lazrs", "this file")
         # lazrs panics, which prints and can end the process, where packed points are damaged
         return read_in_child("laz_child.py", path)
     if len(points) != promised or not promised:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -28,6 +29,11 @@ VOLUMES = {
     29: "triquadratic hexahedra", 42: "polyhedra", 71: "Lagrange tetrahedra", 78: "Bezier tetrahedra",
 }  # fmt: skip
 """Other kinds that fill space: where they are, the tetrahedra alone are not the mesh."""
+
+ITERATION = (CELL_DATA + "iteration", CELL_DATA + "medit:ref", "iteration")
+"""What the iteration of each cell is called: in files of VTK, in meshio's from Medit's, in others."""
+
+T = TypeVar("T")
 
 SURFACES = (".ply", ".stl", ".obj", ".off", ".vtp", ".vti", ".vts", ".vtr")
 
@@ -70,22 +76,28 @@ def read_mesh(path: str | Path) -> Mesh:
         If it holds no tetrahedra, or other cells that fill space; for tetrahedra that name points that are
         not there; for an unknown extension or a file that is damaged. One line that names the file.
     """
+    return read_with(path, tetrahedra_of)
+
+
+def read_with(path: str | Path, make: Callable[[Path, dict[str, np.ndarray]], T]) -> T:
+    """What ``make(path, arrays)`` makes of the arrays of a file, by name, as its format has them."""
     path = Path(path)
     if inner(path).suffix.lower() in SURFACES:
         msg = f"{check_file(path)} holds no tetrahedra: files of this kind have points or surfaces only"
         raise ValueError(msg)
-    reader = by_extension(inner(path), MESH_READERS, "read a mesh from")
+    reader = by_extension(inner(path), CELLS, "read a mesh from")
     check_file(path)
 
-    def mesh_of(path: Path) -> Mesh:
+    def mesh_of(path: Path) -> T:
         with unpacked(path) as plain:
-            return _mesh(path, guarded(reader, plain, path))
+            return guarded(lambda plain: make(plain, reader(plain)), plain, path)
 
     return guarded(mesh_of, path)
 
 
-def _mesh(path: Path, found: dict[str, np.ndarray]) -> Mesh:
-    """What a reader found, checked: a Mesh whose numbers can be used without another look."""
+def tetrahedra_of(path: Path, found: dict[str, np.ndarray]) -> Mesh:
+    """The tetrahedra among the arrays of a file, checked: their numbers can be used without another look."""
+    found = _named(path, found) if path.suffix.lower() == ".npz" else tetrahedra(path, found)
     points, simplices = found["points"], found["simplices"]
     if points.ndim != 2 or points.shape[1] != 3:
         msg = f"{path}: expected points of shape (n, 3), found {points.shape}"
@@ -133,24 +145,12 @@ def _whole(path: Path, what: str, array: np.ndarray) -> np.ndarray:
     raise ValueError(msg)
 
 
-def _read_npz(path: Path) -> dict[str, np.ndarray]:
-    found = read_arrays(path, ["points", "simplices", "iteration"])
+def _named(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The arrays of an .npz, if those that a mesh needs are there."""
     if missing := {"points", "simplices"} - found.keys():
         msg = f"{path} holds no mesh: there is no array {' and none '.join(sorted(missing))}"
         raise ValueError(msg)
     return found
-
-
-def _read_vtk(path: Path) -> dict[str, np.ndarray]:
-    found = (read_legacy if path.suffix.lower() == ".vtk" else read_xml)(path)
-    named = [CELL_DATA + name for name in ("iteration", "medit:ref")]
-    data = next((found[name] for name in named if name in found), None)
-    if "types" not in found or "offsets" not in found:
-        msg = f"{path} holds no tetrahedra: it is no unstructured grid with cells"
-        raise ValueError(msg)
-    if data is not None:
-        found["iteration"] = data
-    return tetrahedra(path, found)
 
 
 def tetrahedra(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -158,14 +158,20 @@ def tetrahedra(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray
 
     Parameters
     ----------
+    path : Path
+        What messages call the file.
     found : dict
-        "points"; "types" (m,), VTK's numbers; "offsets" (m + 1,) into "connectivity"; perhaps "iteration".
+        "points"; "types" (m,), VTK's numbers; "offsets" (m + 1,) into "connectivity"; perhaps "iteration", in
+        files of VTK as data of cells.
 
     Raises
     ------
     ValueError
         If the arrays contradict each other, there are none, or there are other cells that fill space.
     """
+    if "types" not in found or "offsets" not in found:
+        msg = f"{path} holds no tetrahedra: it is no unstructured grid with cells"
+        raise ValueError(msg)
     types = found["types"]
     offsets = _whole(path, "offsets", found["offsets"])
     sizes = np.diff(offsets)
@@ -189,14 +195,17 @@ def tetrahedra(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray
         raise ValueError(msg)
     simplices = found["connectivity"][offsets[:-1][chosen, None] + np.arange(4)]
     mesh = {"points": found["points"], "simplices": simplices}
-    if (iteration := found.get("iteration")) is not None:
+    iteration = next((found[name] for name in ITERATION if name in found), None)
+    if iteration is not None:
         mesh["iteration"] = iteration[chosen] if len(iteration) == len(types) else iteration
     return mesh
 
 
-MESH_READERS: dict[str, Callable[[Path], dict[str, np.ndarray]]] = {
-    ".npz": _read_npz,
-    **dict.fromkeys([".vtu", ".vtk"], _read_vtk),
-    ".msh": lambda path: tetrahedra(path, read_gmsh(path)),
-    ".mesh": lambda path: tetrahedra(path, read_medit(path)),
+CELLS: dict[str, Callable[[Path], dict[str, np.ndarray]]] = {
+    ".npz": lambda path: read_arrays(path, ["points", "simplices", "iteration", "triangles"]),
+    ".vtu": read_xml,
+    ".vtk": read_legacy,
+    ".msh": read_gmsh,
+    ".mesh": read_medit,
 }
+"""The readers of meshes by extension: each gives the arrays of a file by name."""

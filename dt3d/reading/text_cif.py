@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._paths import import_for_format
+from .._optional import optional
 from .text_cells import number
 from .text_lines import read_text
 
@@ -33,7 +33,7 @@ def read_cif(path: Path) -> np.ndarray:
     ImportError
         If Gemmi is not installed.
     """
-    gemmi = import_for_format("gemmi")
+    gemmi = optional("gemmi", "this file")
     text = read_text(path)
     try:
         document = gemmi.cif.read_string(text)

@@ -22,7 +22,6 @@ COMMENT_MARKS = ("#", "//", "%", "!")
 """What starts a line of comment in tables of numbers: Python and Gnuplot, CloudCompare, MATLAB, Fortran."""
 
 
-
 @dataclass(frozen=True)
 class Lines:
     """Some lines of a file, and where they stand in it."""

@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .._memory import available_memory, gigabytes
-from .._paths import import_for_format
+from .._optional import optional
 from .cursor import numbers
 
 TYPES = {
@@ -140,7 +140,7 @@ class Arrays:
     def _decompress(self, block: bytes, size: int) -> bytes:
         """One block, which must be whole and make so many bytes and no more."""
         if self.compressor == "vtkLZ4DataCompressor":
-            data = import_for_format("lz4.block").decompress(block, uncompressed_size=size)
+            data = optional("lz4.block", "this file").decompress(block, uncompressed_size=size)
         else:
             if self.compressor not in COMPRESSORS:
                 known = ", ".join(["vtkLZ4DataCompressor", *COMPRESSORS])

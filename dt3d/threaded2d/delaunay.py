@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import os
 import time
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 
-from .._compiling import announce_compilation
 from .._input import check_points, check_seed, exactly_scaled, word_of
+from .._numba.announce import announce_compilation
 from .._results import Names, Result, check_array, check_complex, check_range
-from .plan import LOCATIONS, METHODS, ORDERS, Options, triangulate
+from .configuration import LOCATIONS, METHODS, MOST_THREADS, ORDERS, configured
+from .driver import triangulate
+from .input_subdivision import SUBDIVISIONS
 from .statistics import Statistics
-from .subdivision import SUBDIVISIONS
 from .subset import Subset, border
 
 if TYPE_CHECKING:
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     from ..location import Locator
     from .verification import Verification
-
-MOST_THREADS = 64
 
 
 class Delaunay(Result):
@@ -155,14 +153,23 @@ class Delaunay(Result):
         announce_compilation()
         points = check_points(points2d, 2)
         sites = exactly_scaled(points)
-        options = _options(len(sites), method, threads, order, location, queue_length, subdivision, seed)
+        options = configured(
+            len(sites),
+            method=method,
+            threads=threads,
+            order=order,
+            location=location,
+            queue_length=queue_length,
+            subdivision=subdivision,
+            seed=seed,
+        )
         prepared = time.perf_counter()
         outcome = triangulate(sites, options)
         self._keep(
             points=points,
             triangles=outcome.triangles,
             neighbors=outcome.neighbors,
-            thread=outcome.maker,
+            thread=outcome.thread,
             inserted_by=outcome.inserted_by,
             duplicates=outcome.duplicates,
             stats=outcome.stats,
@@ -260,48 +267,6 @@ class Delaunay(Result):
 
     def __repr__(self) -> str:
         return f"<dt3d.threaded2d.Delaunay: {len(self.points)} sites, {len(self.triangles)} triangles>"
-
-
-def _options(
-    n: int,
-    method: str,
-    threads: int | None,
-    order: str,
-    location: str,
-    queue_length: int | None,
-    subdivision: str,
-    seed: int,
-) -> Options:
-    """What is run where None or "auto" was given."""
-    processors = min(os.cpu_count() or 1, MOST_THREADS)
-    if method == "auto":
-        # below some thousand sites a second thread costs more than it saves
-        count = threads or (processors if n > 5000 else 1)
-        return Options("optimistic" if count > 1 else "sequential", count, "brio", "walk", 2, "curve", seed)
-    if method == "batch":
-        count = threads or searching_threads(n, processors) + 1
-    else:
-        count = 1 if method == "sequential" else threads or processors
-    return Options(method, count, order, location, queue_length or queue_for(n), subdivision, seed)
-
-
-def searching_threads(n: int, processors: int) -> int:
-    """How many for the batch method with n sites (Kohout et al. 2004, section 4.2 and Table 1).
-
-    Two searching threads to the specialised one for small sets and three from 50,000 sites on; with four
-    processors or more, four above 100,000 sites and five above 1.5 million.
-    """
-    if processors >= 4 and n > 100_000:
-        return 5 if n > 1_500_000 else 4
-    return 3 if n >= 50_000 else 2
-
-
-def queue_for(n: int) -> int:
-    """The best length of the queue for n sites (Kohout et al. 2004, Table 1)."""
-    for least, length in ((100_000, 1024), (10_000, 512), (5_000, 256)):
-        if n >= least:
-            return length
-    return 64
 
 
 def _check_count(name: str, value: Any, least: int) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .._input import no_area
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from ..predicates import work_array
 from ..predicates.filtered2d import orient2d
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._mesh import INSTALL_VIEW, import_pyvista
+from .._optional import optional
+from .._output import new_figure
 
 if TYPE_CHECKING:
     import pyvista
@@ -26,7 +27,7 @@ def to_pyvista(tri: Any, heights: Any = None) -> pyvista.PolyData:
     ImportError
         If PyVista is not installed.
     """
-    pv = import_pyvista()
+    pv = optional("pyvista")
     z = np.zeros(len(tri.points)) if heights is None else np.asarray(heights, np.float64)
     mesh = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
     # copies, since VTK writes where an array is read-only, too
@@ -57,22 +58,13 @@ def plot(tri: Any, ax: Any = None, *, colormap: str = "tab10", edges: bool | Non
         If matplotlib is not installed.
     """
     if ax is None:
-        try:
-            from matplotlib.backends.backend_agg import FigureCanvasAgg
-            from matplotlib.figure import Figure
-        except ImportError as error:
-            msg = f"this needs matplotlib, which cannot be loaded ({error}); {INSTALL_VIEW}"
-            raise ImportError(msg) from error
-        figure = Figure(figsize=(6, 6), layout="constrained")
-        FigureCanvasAgg(figure)
-        ax = figure.add_subplot()
-    from matplotlib import colormaps
-    from matplotlib.collections import PolyCollection
-
+        ax = new_figure(6, 6).add_subplot()
+    colormaps = optional("matplotlib").colormaps
+    collections = optional("matplotlib.collections")
     drawn = len(tri.triangles) <= 20_000 if edges is None else edges
     colours = colormaps[colormap](tri.thread % 10)
     line = {"edgecolors": "white", "linewidths": 0.2} if drawn else {"edgecolors": colours, "linewidths": 0.1}
-    ax.add_collection(PolyCollection(tri.points[tri.triangles], facecolors=colours, **line))
+    ax.add_collection(collections.PolyCollection(tri.points[tri.triangles], facecolors=colours, **line))
     ax.autoscale_view()
     ax.set_aspect("equal")
     return ax

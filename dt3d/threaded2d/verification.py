@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _topology
-from .._kernel_cache import cached_njit
+from .._numba.kernel_cache import cached_njit
 from .._proof import Space, Verification, prove
 from ..predicates.filtered2d import in_circle, orient2d
 from .geometry import conflicts

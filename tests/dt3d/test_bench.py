@@ -9,7 +9,8 @@ from rich.console import Console
 
 import dt3d
 from dt3d import bench, cli
-from dt3d.bench.report import by_set, ratio, table, write_csv
+from dt3d._output import write_csv
+from dt3d.bench.report import HEADER, by_set, csv_rows, ratio, table
 from dt3d.bench.worker import Ended, Run, Worker, verified
 
 from .families import grid
@@ -132,7 +133,7 @@ def test_files_and_table(tmp_path):
         measured("scipy", [2.0], ended="> 60 s", verified=False),
         measured("vtk", [], ended="crashed", tetrahedra=0, memory=None),
     ]
-    write_csv(rows, tmp_path / "a.csv")
+    write_csv(tmp_path / "a.csv", HEADER, csv_rows(rows))
     with (tmp_path / "a.csv").open() as file:
         written = list(csv.DictReader(file))
     assert [line["ratio"] for line in written] == ["1.0", "10.0", ""]

@@ -11,7 +11,7 @@ import pytest
 
 import dt3d
 from dt3d import cli, samples
-from dt3d._report import stats_table
+from dt3d.cli.report import stats_table
 from dt3d.files import read_mesh, write_mesh
 
 

@@ -5,7 +5,8 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import decisions, loop
+from dt3d.extrapolation import loop
+from dt3d.extrapolation.exact import decisions
 
 from .exact import check_neighbors
 
@@ -21,8 +22,8 @@ def test_progress_is_reported_after_every_iteration():
     tri = dt3d.Delaunay(points, method="extrapolation", callback=seen.append)
     assert [p.iteration for p in seen] == list(range(1, tri.stats.iterations + 1))
     assert [p.tetrahedra for p in seen] == np.cumsum(tri.stats.tetrahedra_per_iteration).tolist()
-    assert seen[-1].open_faces == 0
-    assert all(p.open_faces > 0 for p in seen[:-1])
+    assert seen[-1].remaining == 0
+    assert all(p.remaining > 0 for p in seen[:-1])
     assert all(a.seconds < b.seconds for a, b in zip(seen, seen[1:], strict=False))
 
 
@@ -84,14 +85,14 @@ def test_a_run_in_circles_ends(monkeypatch):
 
 
 def test_insertion_reports_every_stretch_and_stops(monkeypatch):
-    monkeypatch.setattr("dt3d.insertion.loop.STRETCH", 40)
-    monkeypatch.setattr("dt3d.insertion.crew.STRETCH", 10)
+    monkeypatch.setattr("dt3d.insertion.driver.SITES_PER_REPORT", 40)
+    monkeypatch.setattr("dt3d.insertion.team.SITES_PER_CALL", 10)
     points = np.random.default_rng(0).random((100, 3))
     seen = []
     dt3d.Delaunay(points, method="insertion", callback=seen.append)
     assert [p.iteration for p in seen] == [1, 2, 3]
     for progress, least in zip(seen, (50, 10, -1), strict=True):
-        assert least < progress.open_faces <= least + 10  # forty more, and what is left of ten
+        assert least < progress.remaining <= least + 10  # forty more, and what is left of ten
 
     def stop(progress):
         raise KeyboardInterrupt

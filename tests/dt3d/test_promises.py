@@ -299,8 +299,7 @@ def test_words_that_are_no_numbers(tmp_path, number):
         "a.vtp": '<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="2"><Points><DataArray '
         f'type="Float64" NumberOfComponents="3">{rows}</DataArray></Points></Piece></PolyData></VTKFile>',
         "a.mesh": f"MeshVersionFormatted 2\nDimension 3\nVertices 2\n0 0 0 0\n1 {number} 0 0\nEnd\n",
-        "a.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n"
-        f"2 1 {number} 0\n$EndNodes\n",
+        "a.msh": f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 1 {number} 0\n$EndNodes\n",
         "a.stl": "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 0 1\n"
         f"vertex 1 {number} 0\nendloop\nendfacet\nendsolid\n",
         "a.pcd": "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n"

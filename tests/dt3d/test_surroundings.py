@@ -35,7 +35,7 @@ print("works")
 GRID = """
 import itertools
 import numpy as np, dt3d
-from dt3d._compiling import announce_compilation
+from dt3d._numba.announce import announce_compilation
 tri = dt3d.Delaunay(np.array(list(itertools.product(range(3), repeat=3)), float))
 print(sorted(map(sorted, tri.simplices.tolist())))
 """
@@ -114,4 +114,4 @@ def test_every_kernel_has_the_cache_that_is_checked():
         for line in file.read_text().splitlines()
         if re.match(r"\s*@(numba\.)?njit\b.*cache=True", line)
     ]
-    assert not plain, "use @cached_njit of dt3d/_kernel_cache.py"
+    assert not plain, "use @cached_njit of dt3d/_numba/kernel_cache.py"

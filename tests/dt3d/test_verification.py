@@ -1,6 +1,5 @@
 """`verify` passes what is right and names what is broken."""
 
-
 import numpy as np
 import pytest
 import scipy.spatial

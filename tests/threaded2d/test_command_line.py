@@ -9,8 +9,9 @@ import pytest
 
 import dt3d
 from dt3d import cli, threaded2d
-from dt3d._mesh_plane import WRITERS, read_plane_mesh, write_plane_mesh
+from dt3d._mesh_plane import WRITERS, write_plane_mesh
 from dt3d.files import read_points
+from dt3d.reading.plane import read_plane_mesh
 
 from .families import canonical
 

@@ -8,7 +8,7 @@ import pytest
 
 import dt3d
 from dt3d import threaded2d
-from dt3d.threaded2d.subdivision import SUBDIVISIONS
+from dt3d.threaded2d.input_subdivision import SUBDIVISIONS
 
 from .families import assert_methods_agree, canonical
 

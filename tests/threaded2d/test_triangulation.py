@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay as SciPyDelaunay
 
 from dt3d import threaded2d
-from dt3d.threaded2d.delaunay import _options
-from dt3d.threaded2d.plan import triangulate
+from dt3d.threaded2d.configuration import configured
+from dt3d.threaded2d.driver import triangulate
 
 from .families import DISTRIBUTIONS, EVERY_SET, assert_methods_agree, canonical
 
@@ -92,8 +92,15 @@ def test_runs_under_contention_with_random_yields(name, method):
     for seed in range(25):  # 8 sets: 200 runs of each method
         order, location = str(rng.choice(["brio", "random"])), str(rng.choice(["dag", "walk"]))
         subdivision, length = str(rng.choice(SUBDIVISIONS[:3])), int(rng.choice([2, 3, 64]))
-        options = _options(
-            len(points), method, int(rng.integers(2, 9)), order, location, length, subdivision, seed
+        options = configured(
+            len(points),
+            method=method,
+            threads=int(rng.integers(2, 9)),
+            order=order,
+            location=location,
+            queue_length=length,
+            subdivision=subdivision,
+            seed=seed,
         )
         outcome = triangulate(points, options.contended(2, helping=bool(seed % 2)))
         np.testing.assert_array_equal(canonical(outcome.triangles), want)
@@ -151,8 +158,8 @@ def test_the_triangulation_does_not_depend_on_the_order_of_rows_or_on_a_power_of
 
 
 def test_growth_of_the_history(monkeypatch):
-    monkeypatch.setattr("dt3d.threaded2d.store.NODES_PER_SITE", 1)
-    monkeypatch.setattr("dt3d.threaded2d.store.BLOCK", 16)
+    monkeypatch.setattr("dt3d.threaded2d.mesh.NODES_PER_SITE", 1)
+    monkeypatch.setattr("dt3d.threaded2d.mesh.BLOCK", 16)
     points = EVERY_SET["uniform"](3000)
     want = canonical(threaded2d.Delaunay(points, method="auto").triangles)
     for method, threads in (

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..._numba.cores import available_cores
 from ...samples import crater_lake
 from ...threaded2d import Delaunay
 from .report import Row, publish
@@ -45,6 +45,8 @@ def crater(
         axes.set_aspect("equal")
         axes.set_title(f"{len(sites):,} points of Crater Lake; colours: the thread that made the triangle")
 
-    note = f"{len(sites):,} points of the terrain. " + NOTE.format(processors=os.cpu_count(), repeats=repeats)
+    note = f"{len(sites):,} points of the terrain. " + NOTE.format(
+        processors=available_cores(), repeats=repeats
+    )
     publish("kohout-crater", "Kohout et al. 2004, Fig. 13: Crater Lake", rows, out, console, draw, note)
     return rows

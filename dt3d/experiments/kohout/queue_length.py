@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...threaded2d.costs import measure
-from ...threaded2d.delaunay import searching_threads
-from ...threaded2d.plan import Options
-from ...threaded2d.virtual import simulate
+from ...threaded2d.configuration import Options, searching_threads
+from ...threaded2d.virtual_time.costs import measure
+from ...threaded2d.virtual_time.scheduler import simulate
 from . import sets
 from .report import Row, publish
 
@@ -31,11 +30,11 @@ def queue(
     for n in sets.sizes(points):
         sites = sets.uniform(n)
         costs = measure(sites)
-        base = simulate(sites, Options("sequential", 1, "random", "dag", 2, "random", 0), 1, costs).seconds
+        base = simulate(sites, Options(method="sequential", order="random"), 1, costs).seconds
         searching, best = PAPER.get(n, (searching_threads(n, elements), None))
         row: Row = {"points": n, "threads": f"{searching}:1"}
         for length in LENGTHS:
-            options = Options("batch", searching + 1, "random", "dag", length, "random", 0)
+            options = Options(method="batch", threads=searching + 1, order="random", queue_length=length)
             row[str(length)] = base / simulate(sites, options, elements, costs).seconds
         row["best"] = max(LENGTHS, key=lambda length: row[str(length)])
         row["paper best"] = best

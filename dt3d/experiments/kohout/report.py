@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..._output import save_figure, write_csv
+from ... import _output
+from ..._output import new_figure
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -27,8 +28,6 @@ def publish(
 
     ``draw`` gets empty matplotlib axes. ``note`` says what the numbers are, and what is not comparable.
     """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
     from rich.table import Table
 
     out.mkdir(parents=True, exist_ok=True)
@@ -40,13 +39,9 @@ def publish(
         table.add_row(*(_text(row[c]) for c in columns))
     console.print(table)
     console.print(note)
-    write_csv(out / f"{name}.csv", columns, [[row[c] for c in columns] for row in rows])
-    figure = Figure(figsize=(7, 4.5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    draw(axes)
-    save_figure(figure, out / f"{name}.png", dpi=120)
-    console.print(f"wrote {out / f'{name}.csv'} and {out / f'{name}.png'}", markup=False)
+    figure = new_figure(7, 4.5)
+    draw(figure.add_subplot())
+    _output.publish(console, out, name, columns, [[row[c] for c in columns] for row in rows], figure)
 
 
 def _text(value: Any) -> str:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...predicates import work_array
+from ..._numba.cores import available_cores
+from ...threaded2d.configuration import Options, queue_for
 from ...threaded2d.correction import correct
-from ...threaded2d.costs import measure, prepared
-from ...threaded2d.delaunay import queue_for
-from ...threaded2d.plan import Options, triangulate
-from ...threaded2d.store import ROOTS
-from ...threaded2d.virtual import simulate
+from ...threaded2d.driver import triangulate
+from ...threaded2d.mesh import ROOTS
+from ...threaded2d.virtual_time.costs import measure, prepared
+from ...threaded2d.virtual_time.scheduler import simulate
 from . import sets
 from .report import Row, publish
 
@@ -54,7 +53,9 @@ def threads_for(method: str, elements: int) -> int:
 def _options(
     method: str, threads: int, n: int, subdivision: str = "random", order: str = "random"
 ) -> Options:
-    return Options(method, threads, order, "dag", queue_for(n), subdivision, 0)
+    return Options(
+        method=method, threads=threads, order=order, queue_length=queue_for(n), subdivision=subdivision
+    )
 
 
 class _Set:
@@ -85,7 +86,7 @@ class _Set:
 
     def row(self, method: str) -> Row:
         """Speed-ups on 2 and 4 simulated elements, and here."""
-        processors = os.cpu_count() or 1
+        processors = available_cores()
         return {
             "virtual 2": self.virtual(method, threads_for(method, 2), 2),
             "virtual 4": self.virtual(method, threads_for(method, 4), 4),
@@ -98,7 +99,7 @@ def _compiled(points: np.ndarray, options: Options) -> None:
     few = points[: min(500, len(points))]
     triangulate(few, options)
     store, _ = prepared(few, options)
-    correct(store, np.arange(ROOTS, dtype=np.int32), work_array(store.points), lambda: None)
+    correct(store, np.arange(ROOTS, dtype=np.int32))
 
 
 def _seconds(points: np.ndarray, options: Options) -> float:
@@ -141,7 +142,7 @@ def _by_size(
         "paper P 410, 2": "s--",
         "paper PE 6400, 2": "s--",
     }
-    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
+    note = NOTE.format(processors=available_cores(), repeats=repeats)
     publish(name, title, rows, out, console, _lines(rows, "points", styles, "speed-up"), note)
     return rows
 
@@ -242,6 +243,6 @@ def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int =
         axes.set(ylabel="speed-up")
         axes.figure.legend(loc="outside upper center", ncols=5)
 
-    note = NOTE.format(processors=os.cpu_count(), repeats=repeats)
+    note = NOTE.format(processors=available_cores(), repeats=repeats)
     publish("kohout-table4", "Kohout et al. 2004, Table 4: methods", rows, out, console, draw, note)
     return rows

@@ -1,0 +1,7 @@
+"""``python -m dt3d.cli``: the same as ``dt3d``."""
+
+import sys
+
+from dt3d import _command
+
+sys.exit(_command.main())

@@ -1,0 +1,1 @@
+"""Beyond the paper: the methods on simulated processing elements, whose clocks are counted forward."""
