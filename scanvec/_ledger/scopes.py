@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 
-class Names:
+class Scopes:
     """The phase and the operation of the entries made now; one for all ledgers of a machine."""
 
     def __init__(self) -> None:
@@ -31,6 +31,7 @@ class Names:
 
     @contextmanager
     def in_phase(self, name: str) -> Iterator[None]:
+        """Name the phase of the entries made inside."""
         self._phases.append(name)
         self._visits[name] += 1
         try:
@@ -40,6 +41,7 @@ class Names:
 
     @contextmanager
     def in_operation(self, name: str) -> Iterator[None]:
+        """Name the operation of the entries made inside, unless another one encloses it."""
         self._operations.append(name)
         try:
             yield

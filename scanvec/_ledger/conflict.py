@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ._model import Model
+from .._models.model import Model
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,14 @@ class ConcurrentAccessError(ValueError):
     Attributes
     ----------
     conflict : Conflict
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> cm = sv.Simulated(processors=4, model=sv.EREW_PRAM, on_conflict="raise")
+    >>> sv.get(cm.vector([5, 1, 3]), cm.vector([2, 2, 0]))
+    Traceback (most recent call last):
+    scanvec._ledger.conflict.ConcurrentAccessError: step 0: get, called by get: one place ...
     """
 
     def __init__(self, conflict: Conflict, model: Model | None) -> None:

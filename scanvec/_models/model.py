@@ -1,15 +1,14 @@
 """What a cost model is: constants, each with where it comes from, and a formula for a step's time.
 
-The models themselves are in `_pram`, `_networks` and `_connection_machines`.
+The models themselves are in `pram`, `networks` and `connection_machines`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
-from ._entry import Entry
+from .._ledger.entry import Entry
 
 SOURCED, CALIBRATED, CONVENTION, ESTIMATE = "sourced", "calibrated", "convention", "estimate"
 
@@ -59,12 +58,23 @@ class Model:
     exclusive: bool = False
 
     def seconds(self, entry: Entry, processors: int) -> float:
-        """Predicted time of one step."""
+        """Predicted time of one step.
+
+        >>> import scanvec as sv
+        >>> step = sv.Entry("", "map", "map", elements=8, vp_ratio=2, messages=0, busiest=0, bytes=0)
+        >>> sv.SCAN.seconds(step, processors=4)
+        2e-06
+        """
         return self.cost(entry, processors, self.values)
 
     @property
     def values(self) -> dict[str, float]:
-        """The constants' values by name."""
+        """The constants' values by name.
+
+        >>> import scanvec as sv
+        >>> sv.SCAN.values
+        {'step': 1e-06}
+        """
         return {name: c.value for name, c in self.constants.items()}
 
     def calibrated(self, source: str, **values: float) -> Model:
@@ -74,6 +84,12 @@ class Model:
         ------
         ValueError
             For a name that is no constant of the model.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> sv.SCAN.calibrated("a stopwatch", step=2e-6).values
+        {'step': 2e-06}
         """
         for name in values:
             if name not in self.constants:
@@ -95,7 +111,8 @@ class Model:
         return "\n".join([f"{self.name}: {self.about}", *("  " + line for line in lines)])
 
 
-def check_model(model: Any) -> Model | None:
+def check_model(model: object) -> Model | None:
+    """The model, or None; ValueError for anything else."""
     if model is not None and not isinstance(model, Model):
         msg = f"model must be a scanvec model, such as scanvec.CM5, got {model!r}"
         raise ValueError(msg)

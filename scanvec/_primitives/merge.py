@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import overload
 
 import jax
 import jax.numpy as jnp
 
-from ._checks import check_flags
-from ._composed import composed
-from ._deprecated import old_keywords
-from ._monoid import ADD
-from ._move import check_one_kind
-from ._records import has_vectors, length_of
-from ._scan import scan_inclusive
-from ._vector import Vector
+from .._checks import check_flags
+from .._deprecated import old_keywords
+from .._monoid import ADD
+from .._records import R, check_one_kind, each, has_vectors, length_of
+from .._vector import Scalar, Vector
+from .composed import composed
+from .scan import scan_inclusive
 
 
+@overload
+def where(flags: Vector, v: Scalar, w: Scalar) -> Vector: ...
+@overload
+def where(flags: Vector, v: Scalar, w: R) -> R: ...
+@overload
+def where(flags: Vector, v: R, w: R | Scalar) -> R: ...
 @old_keywords
-def where(flags: Vector, v: Any, w: Any) -> Any:
+def where(flags: Vector, v: object, w: object) -> object:
     """r[i] = v[i] where flags[i], else w[i]. One step, n elements.
 
     `p-select` of Blelloch 1990, chapter 4. Records must be of one structure and have the same dtypes. A
@@ -30,6 +35,13 @@ def where(flags: Vector, v: Any, w: Any) -> Any:
         If lengths, machines, structures or dtypes differ.
     TypeError
         If the flags are not booleans.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> v = sv.Device().vector([5, 1, 3, 4])
+    >>> sv.where(v > 3, v, 0)
+    Vector([5 0 0 4], dtype=int64, Device())
     """
     check_flags(flags, "where: the flags")
     if has_vectors(v) and has_vectors(w):
@@ -37,17 +49,17 @@ def where(flags: Vector, v: Any, w: Any) -> Any:
     return flags.machine.map(_choose, flags, v, w)
 
 
-def _choose(flag: Any, v: Any, w: Any) -> Any:
-    if jax.tree_util.all_leaves([v]):
-        return jax.tree.map(lambda y: jnp.where(flag, v, y), w)
-    if jax.tree_util.all_leaves([w]):
-        return jax.tree.map(lambda x: jnp.where(flag, x, w), v)
-    return jax.tree.map(lambda x, y: jnp.where(flag, x, y), v, w)
+def _choose(flag: jax.Array, v: object, w: object) -> object:
+    if jax.tree_util.all_leaves([v]):  # a scalar goes to all leaves
+        v = jax.tree.map(lambda _: v, w)
+    elif jax.tree_util.all_leaves([w]):
+        w = jax.tree.map(lambda _: w, v)
+    return each(lambda x, y: jnp.where(flag, x, y), v, w)
 
 
 @old_keywords
 @composed
-def flag_merge(v: Any, w: Any, flags: Vector) -> Any:
+def flag_merge(v: R, w: R, flags: Vector) -> R:
     """r takes the next element of w where its flag is set, of v where not; `split` undone. Seven steps.
 
     Over len(v) + len(w) elements, as many as flags. Blelloch 1990, chapter 3: the step of the halving merge.
@@ -59,6 +71,13 @@ def flag_merge(v: Any, w: Any, flags: Vector) -> Any:
         dtypes differ.
     TypeError
         If the flags are not booleans.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> v, w, flags = map(sv.Device().vector, ([5, 1], [3], [False, True, False]))
+    >>> sv.flag_merge(v, w, flags)
+    Vector([5 3 1], dtype=int64, Device())
     """
     check_flags(flags, "flag_merge: the flags")
     check_one_kind("flag_merge", v, w)
@@ -80,5 +99,5 @@ def flag_merge(v: Any, w: Any, flags: Vector) -> Any:
     )
 
 
-def _sources(flag: Any, ups: Any, i: Any) -> tuple[Any, Any, Any]:
+def _sources(flag: jax.Array, ups: jax.Array, i: jax.Array) -> tuple[jax.Array, jax.Array, jax.Array]:
     return ~flag, i - ups, ups - 1

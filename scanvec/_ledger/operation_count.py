@@ -7,12 +7,15 @@ function's JAX trace.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import cache
-from typing import Any
 
 import jax
 import numpy as np
+from jax.extend.core import Jaxpr
+
+from .._vector import Scalar
 
 # What moves or renames values without computing any.
 FREE = frozenset(
@@ -21,7 +24,7 @@ FREE = frozenset(
 )  # fmt: skip
 
 
-def count_operations(fn: Callable, args: Any, context: bool) -> int:
+def count_operations(fn: Callable[..., object], args: object, context: bool) -> int:
     """Elementary operations of ``fn`` on one element, at least 1; a select for each result under a context.
 
     ``args`` are blocks and scalars, as a machine's map gets them. Loops of a known length count as often as
@@ -33,20 +36,24 @@ def count_operations(fn: Callable, args: Any, context: bool) -> int:
     return max(1, operations + (results if context else 0))
 
 
-def _dtype(x: Any) -> np.dtype | type:
+def _dtype(x: jax.Array | Scalar) -> np.dtype[np.generic] | type:
     # Python scalars stay themselves, so that they do not widen what they meet
     return type(x) if isinstance(x, bool | int | float) else np.dtype(x.dtype)
 
 
 @cache
-def _traced(fn: Callable, structure: Any, dtypes: tuple) -> tuple[int, int]:
-    elements = [d(0) if isinstance(d, type) else jax.ShapeDtypeStruct((), d) for d in dtypes]
+def _traced(
+    fn: Callable[..., object],
+    structure: jax.tree_util.PyTreeDef,
+    dtypes: tuple[np.dtype[np.generic] | type, ...],
+) -> tuple[int, int]:
+    elements = [d(0) if isinstance(d, type) else np.zeros((), d) for d in dtypes]
     with jax.enable_x64(True):
         traced = jax.make_jaxpr(fn)(*jax.tree.unflatten(structure, elements))
     return _count(traced.jaxpr), len(traced.jaxpr.outvars)
 
 
-def _count(jaxpr: Any) -> int:
+def _count(jaxpr: Jaxpr) -> int:
     total = 0
     for equation in jaxpr.eqns:
         inner = [_count(j) for j in map(_jaxpr_of, jax.tree.leaves(list(equation.params.values()))) if j]
@@ -55,10 +62,11 @@ def _count(jaxpr: Any) -> int:
         elif inner:
             total += equation.params.get("length", 1) * sum(inner)
         elif equation.primitive.name not in FREE:
-            total += max((int(np.prod(v.aval.shape)) for v in equation.outvars), default=1)
+            shapes = [getattr(v.aval, "shape") for v in equation.outvars]  # noqa: B009
+            total += max(map(math.prod, shapes), default=1)
     return total
 
 
-def _jaxpr_of(parameter: Any) -> Any:
+def _jaxpr_of(parameter: object) -> Jaxpr | None:
     inner = getattr(parameter, "jaxpr", parameter)
-    return inner if hasattr(inner, "eqns") else None
+    return inner if isinstance(inner, Jaxpr) else None

@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ._entry import Entry
-from ._model import CONVENTION, Constant, Model, depth_of_tree, used_processors
+from .._ledger.entry import Entry
+from .model import CONVENTION, Constant, Model, depth_of_tree, used_processors
 
 STEP = Constant(
     1e-6, "s", CONVENTION, "one unit step; the times of abstract machines compare with each other only"
@@ -28,7 +28,8 @@ def local_scan(entry: Entry) -> int:
     return 2 * entry.vp_ratio if entry.vp_ratio > 1 else 1
 
 
-def _scan_model(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
+def scan_model(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
+    """Unit steps of the scan model."""
     if entry.primitive == "map":
         return c["step"] * entry.operations * entry.vp_ratio
     if entry.primitive == "scan":
@@ -41,7 +42,7 @@ def _crcw(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
     if entry.primitive == "scan":
         across = 2 * depth_of_tree(used_processors(entry))
         return c["step"] * entry.operations * (local_scan(entry) + across)
-    return _scan_model(entry, processors, c)
+    return scan_model(entry, processors, c)
 
 
 def _erew(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
@@ -53,7 +54,7 @@ def _erew(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
 SCAN = Model(
     "SCAN",
     "unit steps; a scan across processors is one, as is a concurrent access (Blelloch 1989)",
-    _scan_model,
+    scan_model,
     {"step": STEP},
 )
 

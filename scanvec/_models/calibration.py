@@ -7,15 +7,14 @@ from itertools import combinations
 
 import numpy as np
 
-from ._ledger import Ledger
-from ._model import Model
+from .._ledger.ledger import Ledger
+from .model import Model
 
 
 def calibrate(
     model: Model, ledgers: Sequence[Ledger], seconds: Sequence[float], free: Sequence[str], source: str
 ) -> Model:
-    """The model with those values of its ``free`` constants that bring its predictions nearest to
-    ``seconds``.
+    """The model with those values of ``free`` constants that bring its predictions nearest to ``seconds``.
 
     Least squares of the relative errors, with no constant negative. The model's cost must be linear in the
     free constants.
@@ -23,6 +22,7 @@ def calibrate(
     Parameters
     ----------
     model : Model
+        Whose constants are fitted; it does not change.
     ledgers : sequence of Ledger
         What ran, one ledger for each time.
     seconds : sequence of float
@@ -36,6 +36,15 @@ def calibrate(
     ------
     ValueError
         If there are fewer times than free constants, not one for each ledger, or a name is unknown.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> ledger = sv.Ledger(processors=4)
+    >>> ledger.record("map", elements=8, vp_ratio=2, messages=0, busiest=0, size=0)
+    >>> model = sv.calibrate(sv.SCAN, [ledger], [1e-3], ["step"], "a stopwatch")
+    >>> print(model.constants["step"].origin, round(model.values["step"], 9))
+    calibrated 0.0005
     """
     if len(seconds) != len(ledgers) or len(seconds) < len(free):
         msg = (

@@ -6,11 +6,10 @@ import csv
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
-from ._entry import Entry, Row
-from ._model import Model
-from ._writing import written_aside
+from .._models.model import Model
+from .._writing import written_aside
+from .entry import Entry, Row
 
 KEYS = ("phase", "operation", "primitive")
 
@@ -54,7 +53,7 @@ def write_csv(path: Path, entries: Iterable[Entry], model: Model | None, process
         writer = csv.writer(file)
         writer.writerow([*names, *(["seconds"] if model else [])])
         for e in entries:
-            values: list[Any] = [getattr(e, n) for n in names]
+            values: list[object] = [getattr(e, n) for n in names]
             if model is not None:
                 values.append(model.seconds(e, processors))
             writer.writerow(values)
@@ -68,5 +67,5 @@ def as_text(rows: Sequence[Row], seconds: bool) -> str:
     return "\n".join("  ".join(x.rjust(w) for x, w in zip(line, widths, strict=True)) for line in lines)
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     return f"{value:.6f}" if isinstance(value, float) else str(value)

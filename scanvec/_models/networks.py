@@ -11,17 +11,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import ceil, sqrt
 
-from ._entry import Entry
-from ._model import Model, depth_of_tree, used_processors
-from ._pram import STEP, _scan_model, local_scan
+from .._ledger.entry import Entry
+from .model import Model, depth_of_tree, used_processors
+from .pram import STEP, local_scan, scan_model
 
 
 def _hypercube(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
     if entry.primitive == "scan":
         across = depth_of_tree(used_processors(entry))  # one exchange along each dimension
         return c["step"] * entry.operations * (local_scan(entry) + across)
-    route = depth_of_tree(processors) + entry.busiest if entry.messages else 0
-    return _scan_model(entry, processors, c) + c["step"] * route
+    travel = depth_of_tree(processors) + entry.busiest if entry.messages else 0
+    return scan_model(entry, processors, c) + c["step"] * travel
 
 
 def _mesh(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
@@ -31,11 +31,11 @@ def _mesh(entry: Entry, processors: int, c: Mapping[str, float]) -> float:
         across = 3 * ceil(sqrt(used_processors(entry))) if used_processors(entry) > 1 else 0
         return c["step"] * entry.operations * (local_scan(entry) + across)
     if not entry.messages:
-        return _scan_model(entry, processors, c)
+        return scan_model(entry, processors, c)
     # half of the messages to places all over the mesh cross its middle, where `side` links lead each way
     through_the_middle = ceil(entry.messages / 4 / side)
-    route = 2 * (side - 1) + max(entry.busiest, through_the_middle)
-    return _scan_model(entry, processors, c) + c["step"] * route
+    travel = 2 * (side - 1) + max(entry.busiest, through_the_middle)
+    return scan_model(entry, processors, c) + c["step"] * travel
 
 
 HYPERCUBE = Model(

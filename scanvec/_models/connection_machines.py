@@ -19,9 +19,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import ceil
 
-from ._entry import Entry
-from ._model import CALIBRATED, ESTIMATE, SOURCED, Constant, Model, used_processors
-from ._pram import local_scan
+from .._ledger.entry import Entry
+from .model import CALIBRATED, ESTIMATE, SOURCED, Constant, Model, used_processors
+from .pram import local_scan
 
 TABLE1 = "Teng et al. 1993, Table 1, random sets, 32 nodes; `dt3d experiment table1` fits it anew"
 
