@@ -14,7 +14,7 @@ import scanvec as sv
 from .._errors import InconsistencyError, InconsistencyWarning
 from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
-from ..extrapolation import normalise, perturb, triangulate
+from ..extrapolation import extrapolate, normalise, perturb
 from ..extrapolation.perturbation import MAGNITUDE
 from ._output import new_table, panels, publish
 from .paper import TABLE3, TOO_MANY
@@ -44,9 +44,11 @@ class Outcome:
 
     @property
     def finished(self) -> bool:
+        """Whether there is a triangulation."""
         return self.tetrahedra is not None
 
     def __str__(self) -> str:
+        """The inconsistencies, as the table has them."""
         return str(self.inconsistencies) if self.finished else TOO_MANY
 
 
@@ -66,7 +68,7 @@ def attempt(points: np.ndarray, mode: str) -> Outcome:
 def _with_the_perturbation_of_double(points: np.ndarray) -> Outcome:
     """Single precision, but sites moved no further than in double precision."""
     sites = perturb(normalise(points), np.dtype(np.float64), seed=0).astype(np.float32)
-    found = triangulate(sv.Device(), sites, False)
+    found = extrapolate(sv.Device(), sites, False)
     missing = len(np.setdiff1d(np.arange(len(sites)), found.simplices))
     corners = sites[found.simplices].astype(float)
     flat = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0).sum())
@@ -115,7 +117,7 @@ def table3(
         f"undecided; {_power(np.float32)}, dt3d's choice for single precision, is the larger perturbation."
     )
     header = ["set", "paper_single", *(f"{m}_{c}" for m in MODES for c in ("tetrahedra", "inconsistencies"))]
-    lines = [
+    lines: list[list[object]] = [
         [name, TABLE3[name]]
         + [x for o in by_mode.values() for x in (o.tetrahedra if o.finished else "", str(o))]
         for name, by_mode in outcomes.items()

@@ -4,7 +4,9 @@ Y. A. Teng, F. Sullivan, I. Beichl, E. Puppo: A Data-parallel Algorithm for Thre
 Triangulation and its Implementation. Supercomputing '93, pages 112-121.
 """
 
-from .loop import Outcome, triangulate
+from .loop import extrapolate
+from .outcome import Outcome
 from .perturbation import normalise, perturb
+from .triangulation import triangulate
 
-__all__ = ["Outcome", "normalise", "perturb", "triangulate"]
+__all__ = ["Outcome", "extrapolate", "normalise", "perturb", "triangulate"]

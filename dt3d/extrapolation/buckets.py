@@ -17,7 +17,7 @@ import scanvec as sv
 
 from .boxes import Grid, cell_coordinates, cell_of
 from .points import Point
-from .tree import Tree, build
+from .tree.boxes import Tree, build
 
 SITES_PER_CELL = 8  # the paper's average (section 7)
 # Sites are even if the cells that have any hold at most so many times that on average.

@@ -57,6 +57,11 @@ def opposite(f: Face) -> Face:
     return Face(f.b, f.a, f.c)
 
 
+def both_sides(facets: Face) -> Face:
+    """Every facet seen from one side, then every one seen from the other."""
+    return sv.append(facets, facets.a.machine.map(opposite, facets))
+
+
 def face_key(f: Face) -> tuple[Any, Any, Any, Any]:
     """Vertices in ascending order, and the side: the parity of the permutation that sorts them."""
     low, mid, high, parity = f.a, f.b, f.c, jnp.zeros_like(f.a)

@@ -1,8 +1,8 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, section 4. The search is that of `search`; what is particular to faces is here, in two
-forms: `PERTURBED` for sites that a perturbation has made general, as in the paper, whose signed distances are
-compared as they come; and `FILTERED`, which knows each only between bounds.
+Teng et al. 1993, sections 4 and 4.2 (Algorithm Face Expansion). The search is that of `search`; what is
+particular to faces is here. `PERTURBED` is the paper's: sites are in general position, and their signed
+distances are compared as they come. `exact/expansion.py` has the form for sites as they are.
 """
 
 from __future__ import annotations
@@ -13,13 +13,14 @@ import jax.numpy as jnp
 
 import scanvec as sv
 
-from . import filtered_distance, signed_distance
+from . import signed_distance
 from .boxes import Box, Grid
 from .buckets import Buckets
+from .caps import cap_box
 from .gift_wrapping import squared_distance_to_box
 from .points import Point, add, bounding_box, dot, epsilon, norm, sub
-from .regions import cap_box
-from .search import Answer, Question, search
+from .search import search
+from .warrants import Answer, Question
 
 # Bounds that a tree search tries before it does without.
 TRIALS = 4
@@ -60,17 +61,14 @@ def search_faces(buckets: Buckets, queries: OpenFace, corners: list[Point], ques
     return search(buckets, queries, first, question)
 
 
-def _homes(query: OpenFace) -> tuple[Any, Any, Any]:
+def homes(query: OpenFace) -> tuple[Any, Any, Any]:
     return query.face.a, query.face.b, query.face.c
 
 
-def _trial(centre: Point, k: Any, unit: Any) -> Any:
+def trial(centre: Point, k: Any, unit: Any) -> Any:
     """Signed distances of half the radius of the face's circumcircle, then of 2, 8, 32 of them."""
     distance = norm(centre) * jnp.left_shift(1, 2 * k) / 2
     return jnp.where(k < TRIALS, distance / unit, jnp.inf)
-
-
-# for perturbed sites
 
 
 def open_perturbed_face(face: Face, a: Point, b: Point, c: Point) -> OpenFace:
@@ -102,51 +100,10 @@ def _perturbed_admits(query: OpenFace, distance: Any, low: Point, high: Point) -
 
 
 def _perturbed_trial(query: OpenFace, k: Any) -> Any:
-    return _trial(query.frame.centre, k, 1)
+    return trial(query.frame.centre, k, 1)
 
 
-PERTURBED = Question(_perturbed_score, _homes, _perturbed_region, _perturbed_admits, _perturbed_trial)
-
-
-# for sites as they are
-
-
-def open_exact_face(face: Face, a: Point, b: Point, c: Point, lattice: Any) -> OpenFace:
-    return OpenFace(filtered_distance.frame(a, b, c, lattice), face)
-
-
-def _bounds(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
-    own = (index == query.face.a) | (index == query.face.b) | (index == query.face.c)
-    low, high = filtered_distance.distance_bounds(query.frame, site)
-    return jnp.where(own, jnp.inf, low), jnp.where(own, jnp.inf, high)
-
-
-def cap_cells(f: filtered_distance.Frame, bound: Any, grid: Grid) -> Box:
-    """All cells that could hold a site above a face whose signed distance is at most ``bound``."""
-    # what the errors of centre and normal can move, and the roundings of the cap itself
-    reach = norm(f.centre) + jnp.abs(bound) * norm(f.normal)
-    slack = 4 * (f.blur + jnp.abs(bound) * norm(f.doubt)) + 64 * epsilon(f.blur) * reach
-    return cap_box(f.origin, f.normal, f.doubt, f.centre, bound / 2, slack, grid)
-
-
-def _region(query: OpenFace, bound: Any, grid: Grid) -> Box:
-    return cap_cells(query.frame, bound, grid)
-
-
-def _may_hold(query: OpenFace, bound: Any, low: Point, high: Point) -> Any:
-    return filtered_distance.may_hold(query.frame, bound, low, high)
-
-
-def trial_bound(f: filtered_distance.Frame, k: Any) -> Any:
-    """The k-th bound to try; inf from `TRIALS` on."""
-    return _trial(f.centre, k, norm(f.normal) / 2)
-
-
-def _exact_trial(query: OpenFace, k: Any) -> Any:
-    return trial_bound(query.frame, k)
-
-
-FILTERED = Question(_bounds, _homes, _region, _may_hold, _exact_trial)
+PERTURBED = Question(_perturbed_score, homes, _perturbed_region, _perturbed_admits, _perturbed_trial)
 
 
 def expand_perturbed(buckets: Buckets, faces: Face) -> Answer:

@@ -15,7 +15,8 @@ import scanvec as sv
 from .boxes import Box, Grid, containment_box
 from .buckets import Buckets
 from .points import Point, add, bounding_box, cross, dot, scale, sub
-from .search import Question, search
+from .search import search
+from .warrants import Question
 
 
 class Ball(NamedTuple):

@@ -6,10 +6,7 @@ expands all open faces at once.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
-from contextlib import contextmanager
-from typing import Any
 
 import numpy as np
 
@@ -17,11 +14,13 @@ import scanvec as sv
 
 from .._errors import InconsistencyError, InternalError
 from .._memory import require
-from . import fused
+from . import compiled
 from .buckets import Buckets, bucket
+from .clock import Clock
 from .dead_faces import (
     DeadFaces,
     Tetrahedron,
+    both_sides,
     bury,
     bury_boundary,
     distinct,
@@ -30,14 +29,14 @@ from .dead_faces import (
     no_dead_faces,
     open_faces,
 )
-from .decisions import Counts, expand_exactly
-from .exact_sites import ExactSites, check_magnitudes
+from .exact.decisions import Counts, expand_exactly
+from .exact.first_facets import seeds
+from .exact.sites import ExactSites, check_magnitudes
 from .expansion import Face, expand_perturbed
 from .gift_wrapping import first_facets
 from .outcome import Outcome
 from .points import Point
-from .search import NO_SITE
-from .start import both_sides, seeds
+from .warrants import NO_SITE
 
 # A set is given up when so large a share of the tetrahedra found, and more than so many, contradict others
 # ("too many" in the paper's Table 3).
@@ -47,22 +46,7 @@ GIVE_UP_COUNT = 100
 BYTES_PER_SITE = 1500  # at least, as measured
 
 
-class _Clock:
-    """Adds up seconds by phase, and names the phases in the machine's ledger."""
-
-    def __init__(self, machine: sv.Machine) -> None:
-        self.machine = machine
-        self.seconds: dict[str, float] = {}
-
-    @contextmanager
-    def phase(self, name: str) -> Any:
-        start = time.perf_counter()
-        with self.machine.phase(name):
-            yield
-        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
-
-
-def triangulate(
+def extrapolate(
     machine: sv.Machine,
     sites: np.ndarray,
     exact: bool,
@@ -90,9 +74,9 @@ def triangulate(
     require(f"the extrapolation of {len(sites)} sites", BYTES_PER_SITE * len(sites))
     if exact:
         check_magnitudes(sites)
-        if isinstance(machine, sv.Device) and fused.serves(sites):
-            return fused.triangulate(machine, sites, report).in_canonical_order()
-    clock = _Clock(machine)
+        if isinstance(machine, sv.Device) and compiled.serves(sites):
+            return compiled.triangulate(machine, sites, report).in_canonical_order()
+    clock = Clock(machine)
     with clock.phase("buckets"):
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))
     with clock.phase("first facets"):

@@ -6,7 +6,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .canonical import canonical
+import scanvec as sv
+
+from .._stats import Statistics
+from .exact.canonical import canonical
 
 
 @dataclass
@@ -16,6 +19,7 @@ class Outcome:
     simplices: np.ndarray  # int32 (m, 4)
     neighbors: np.ndarray  # int32 (m, 4)
     iteration: np.ndarray  # int32 (m,)
+    duplicates: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))
     per_iteration: list[int] = field(default_factory=list)
     face_expansions: int = 0
     sites_searched: int = 0
@@ -28,3 +32,16 @@ class Outcome:
         rows = canonical(self.simplices, self.neighbors, self.iteration)
         self.simplices, self.neighbors, self.iteration = rows
         return self
+
+    def statistics(self, ledger: sv.Ledger | None, total: float) -> Statistics:
+        """The counts as the public class has them, with the seconds of the whole run."""
+        return Statistics(
+            iterations=len(self.per_iteration),
+            face_expansions=self.face_expansions,
+            sites_searched=self.sites_searched,
+            exact_decisions=self.exact_decisions,
+            tetrahedra_per_iteration=tuple(self.per_iteration),
+            inconsistencies=self.inconsistencies,
+            seconds=self.seconds | {"total": total},
+            ledger=ledger,
+        )

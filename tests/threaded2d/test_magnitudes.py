@@ -1,5 +1,4 @@
-"""Sets with all magnitudes of float64: no rounded difference decides whether sites are equal, or their
-order."""
+"""Sets with all magnitudes of float64: no rounded difference decides order, or whether sites are equal."""
 
 import warnings
 
@@ -22,8 +21,10 @@ RUNS = [
 
 
 def crowded(exponent, drawn):
-    """Three far sites, and so many draws of a lattice that is 2^exponent wide, in whose cell of the curve lie
-    also sites that a rounded difference does not tell apart: A, B, A."""
+    """Three far sites, and so many draws of a lattice that is 2^exponent wide.
+
+    In its cell of the curve lie also sites that a rounded difference does not tell apart: A, B, A.
+    """
     rng = np.random.default_rng(drawn)
     lattice = np.ldexp(rng.integers(-8, 9, (drawn, 2)).astype(float), exponent)
     tiny = [[2.0**-980, 0], [2.0**-981, 0], [2.0**-980, 0]]

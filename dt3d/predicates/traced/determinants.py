@@ -94,7 +94,7 @@ def _determinants3(r: jax.Array) -> jax.Array:
 def _lifts(r: jax.Array) -> jax.Array:
     """Squared lengths of all rows."""
     squares = product(r, r)
-    return _narrow(sum(squares[:, :, c] for c in range(r.shape[2])))
+    return _narrow(sum(squares[:, :, c] for c in range(r.shape[2])))  # type: ignore[arg-type]  # as above
 
 
 def _alternating_sign(lifts: jax.Array, minors: jax.Array) -> jax.Array:

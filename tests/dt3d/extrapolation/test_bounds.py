@@ -12,12 +12,13 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import cell_search, dictionary, loop, tree_search
+from dt3d.extrapolation import cell_requests, dictionary, loop
 from dt3d.extrapolation.buckets import bucket
-from dt3d.extrapolation.fused import facets, mesh
+from dt3d.extrapolation.compiled import facets, mesh
 from dt3d.extrapolation.gift_wrapping import NEAREST, Start
 from dt3d.extrapolation.outcome import Outcome
 from dt3d.extrapolation.points import Point
+from dt3d.extrapolation.tree import search as tree_search
 
 MACHINE = sv.Simulated(processors=1)
 
@@ -80,12 +81,12 @@ def test_a_tree_search_with_bounds_that_are_no_numbers():
 def test_a_cell_search_whose_boxes_do_not_grow(monkeypatch):
     sites = np.random.default_rng(0).random((200, 3))
     buckets, queries, question = nearest(sites, homes=lambda query: (query.site,))
-    monkeypatch.setattr(cell_search, "TURNS_BETWEEN_LOOKS", 4)
+    monkeypatch.setattr(cell_requests, "TURNS_BETWEEN_LOOKS", 4)
     first = queries.a, queries.a
-    assert len(cell_search.search(buckets, queries, first, NEAREST).best.site) == 200
-    monkeypatch.setattr(cell_search, "contains", lambda outer, inner: jnp.zeros_like(outer.x0, bool))
+    assert len(cell_requests.search(buckets, queries, first, NEAREST).best.site) == 200
+    monkeypatch.setattr(cell_requests, "contains", lambda outer, inner: jnp.zeros_like(outer.x0, bool))
     with pytest.raises(dt3d.InternalError, match="a search through cells has taken .* rounds"):
-        cell_search.search(buckets, queries, first, question)
+        cell_requests.search(buckets, queries, first, question)
 
 
 def test_more_tetrahedra_than_any_triangulation_has():

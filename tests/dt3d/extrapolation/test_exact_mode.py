@@ -6,13 +6,15 @@ import pytest
 import dt3d
 import scanvec as sv
 from dt3d._input import exactly_scaled
-from dt3d.extrapolation import decisions, loop
+from dt3d.extrapolation import loop
 from dt3d.extrapolation.buckets import bucket
-from dt3d.extrapolation.exact_sites import ExactSites
-from dt3d.extrapolation.expansion import FILTERED, Face, open_exact_face
+from dt3d.extrapolation.exact import decisions
+from dt3d.extrapolation.exact.expansion import FILTERED, open_exact_face
+from dt3d.extrapolation.exact.first_facets import seeds
+from dt3d.extrapolation.exact.sites import ExactSites
+from dt3d.extrapolation.expansion import Face
 from dt3d.extrapolation.points import Point
-from dt3d.extrapolation.search import NO_SITE
-from dt3d.extrapolation.start import seeds
+from dt3d.extrapolation.warrants import NO_SITE
 
 from ..exact import integers, orient, validate
 from ..families import grid, tetrahedra

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 import dt3d
 import scanvec as sv
 from dt3d._input import exactly_scaled, first_copies
-from dt3d.extrapolation.canonical import canonical
-from dt3d.extrapolation.fused import loop
-from dt3d.extrapolation.fused.windows import cells_of, grid_of, windows_of
+from dt3d.extrapolation.compiled import loop
+from dt3d.extrapolation.compiled.windows import cells_of, grid_of, windows_of
+from dt3d.extrapolation.exact.canonical import canonical
 from dt3d.verification import verify
 
 from ..families import LARGE, body_centred, box, grid, jittered, random_integers, tetrahedra

@@ -5,13 +5,16 @@ import pytest
 
 import scanvec as sv
 from dt3d.extrapolation import buckets as buckets_module
-from dt3d.extrapolation import cell_search, tree
+from dt3d.extrapolation import cell_requests
 from dt3d.extrapolation.boxes import cell_of
 from dt3d.extrapolation.buckets import bucket, morton_code
-from dt3d.extrapolation.expansion import FILTERED, Face, expand_perturbed, open_exact_face, search_faces
+from dt3d.extrapolation.exact.expansion import FILTERED, open_exact_face
+from dt3d.extrapolation.expansion import Face, expand_perturbed, search_faces
 from dt3d.extrapolation.gift_wrapping import NEAREST, Start, first_facets, squared_distance_to_box
 from dt3d.extrapolation.points import Point
-from dt3d.extrapolation.search import NO_SITE, search
+from dt3d.extrapolation.search import search
+from dt3d.extrapolation.tree import boxes as tree
+from dt3d.extrapolation.warrants import NO_SITE
 
 MACHINE = sv.Device()
 RNG = np.random.default_rng(0)
@@ -196,7 +199,7 @@ def test_face_expansion(name, load):
 def test_queries_wait_where_memory_is_bounded(monkeypatch):
     buckets = bucket(Point(*(MACHINE.vector(c.copy()) for c in SETS["uniform"].T)))
     free = nearest(buckets)
-    monkeypatch.setattr(cell_search, "MOST_REQUESTS", 64)
+    monkeypatch.setattr(cell_requests, "MOST_REQUESTS", 64)
     bounded = nearest(buckets)
     np.testing.assert_array_equal(bounded.best.site.to_numpy(), free.best.site.to_numpy())
     assert bounded.sites_searched == free.sites_searched

@@ -11,7 +11,7 @@ import pytest
 
 import dt3d
 from dt3d._input import first_copies
-from dt3d.insertion import loop
+from dt3d.insertion import driver
 from dt3d.ordering import along_curve
 from dt3d.ordering.along_curve import along_curve_in_space
 from dt3d.ordering.duplicates import separate_copies
@@ -23,8 +23,10 @@ CASES = Path(__file__).parents[3].parent / "shared" / "cases"
 
 
 def crowded_cell(n, exponent):
-    """A tetrahedron of about 1; n sites of a small lattice times 2^exponent; in one of its cells two sites
-    that are 2^-70 times as near each other, and a copy of one of them."""
+    """A tetrahedron of about 1, n sites of a small lattice times 2^exponent, and near ones.
+
+    In one cell of the lattice lie two sites that are 2^-70 times as near each other, and a copy of one.
+    """
     rng = np.random.default_rng(0)
     cell = np.unique(np.ldexp(rng.integers(-8, 9, (n, 3)).astype(float), exponent), axis=0)
     a, b = [np.ldexp(1.0, exponent - 70), 0, 0], [np.ldexp(1.0, exponent - 71), 0, 0]
@@ -102,8 +104,8 @@ def test_equal_sites_are_together_on_the_curve(name, seed):
 @sets("crowded cell 2^-910", "crowded cell 2^-960", "subnormal cell", "signed zeros")
 @pytest.mark.parametrize("threads", [1, 2])
 def test_copies_in_a_crowded_cell_are_not_inserted(name, threads, monkeypatch):
-    monkeypatch.setattr(loop, "available_cores", lambda: 2)
-    monkeypatch.setattr("dt3d.insertion.crew.LEAST_PIECE", 20)
+    monkeypatch.setattr(driver, "available_cores", lambda: 2)
+    monkeypatch.setattr("dt3d.insertion.team.LEAST_SITES_PER_THREAD", 20)
     points = SETS[name]
     tri = dt3d.Delaunay(points, threads=threads)
     assert tri.stats.threads == threads
