@@ -31,9 +31,9 @@ from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.noinline import call_noinline
-from ..ordering.lexicographic import before
 from . import double_double as dd
 from .big_integers import in_circle_exact, orient2d_exact
+from .lexicographic import before
 from .workspace import NEGLIGIBLE, SLACK_INDEX
 
 ORIENT2D_BOUND = 9.0 * 2.0**-53

@@ -44,9 +44,9 @@ Contraction to fused multiply-add leaves out roundings and adds none, so all hol
 from __future__ import annotations
 
 from .._numba.kernel_cache import cached_njit
-from ..ordering.lexicographic import before
 from . import double_double as dd
 from .big_integers import in_sphere_exact, orient3d_exact
+from .lexicographic import before
 from .workspace import NEGLIGIBLE, SLACK_INDEX
 
 ORIENT3D_BOUND = 49.0 * 2.0**-53

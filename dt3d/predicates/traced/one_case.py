@@ -46,6 +46,7 @@ def inside(
     Parameters
     ----------
     vertices : tuple of four points
+        Those of the tetrahedron.
     ranks : tuple of four ints
         The places of the vertices in the lexicographic order of all sites.
     site, rank : point, int
