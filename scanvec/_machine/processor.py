@@ -192,8 +192,8 @@ def span(index: jax.Array, active: jax.Array, alone: bool) -> list[jax.Array]:
     least = jnp.min(jnp.where(active, index, np.iinfo(np.int64).max))
     some = jnp.any(active)
     if not alone:
-        greatest, some = lax.pmax((greatest, some), PROCESSORS)  # type: ignore[no-untyped-call]
-        least = lax.pmin(least, PROCESSORS)  # type: ignore[no-untyped-call]
+        greatest, some = lax.pmax((greatest, some), PROCESSORS)
+        least = lax.pmin(least, PROCESSORS)
     return [jnp.where(some, least, 0), jnp.where(some, greatest, -1)]
 
 
