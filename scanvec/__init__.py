@@ -12,7 +12,7 @@ and keep a ledger of every step; `Device` runs the same programs on whole vector
 >>> cm.ledger.steps
 1
 
-G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
+G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990; Teng et al. 1993, section 2.3.
 """
 
 from . import _deprecated

@@ -44,11 +44,11 @@ class Device(Machine):
         out: jax.Array = jax.device_put(block)
         return out
 
-    def to_numpy(self, v: Vector) -> npt.NDArray[np.generic]:  # noqa: D102
+    def to_numpy(self, v: Vector) -> npt.NDArray[np.generic]:
         with computing():
             return np.asarray(v._block)[: len(v)].copy()
 
-    def iota(self, n: int) -> Vector:  # noqa: D102
+    def iota(self, n: int) -> Vector:
         check_size(n)
         with computing():
             return Vector(self, _iota(*self._shape(n)), n)

@@ -120,12 +120,13 @@ def _carry(op: Monoid, backward: bool, total: R, seen: jax.Array | None) -> R:
     """What the processors before this one come to, or those behind it where the scan goes backward."""
     gathered: tuple[R, jax.Array | None] = lax.all_gather((total, seen), PROCESSORS)
     totals, flags = gathered
-    place = lax.axis_index(PROCESSORS)
     if backward:
         totals, flags = each(lambda x: x[::-1], (totals, flags))
-        place = lax.axis_size(PROCESSORS) - 1 - place
     running, _ = inclusive_scan(op, totals, flags)
-    return each(lambda x, e: shift(x, 1, e)[place], running, identity_like(op, total))
+    before = each(lambda x, e: shift(x, 1, e), running, identity_like(op, total))
+    if backward:
+        before = each(lambda x: x[::-1], before)
+    return each(lambda x: x[lax.axis_index(PROCESSORS)], before)
 
 
 def _following(flags: jax.Array, vp: ArrayLike, alone: bool) -> jax.Array:
@@ -191,8 +192,8 @@ def span(index: jax.Array, active: jax.Array, alone: bool) -> list[jax.Array]:
     least = jnp.min(jnp.where(active, index, np.iinfo(np.int64).max))
     some = jnp.any(active)
     if not alone:
-        greatest, some = lax.pmax((greatest, some), PROCESSORS)  # type: ignore[no-untyped-call]
-        least = lax.pmin(least, PROCESSORS)  # type: ignore[no-untyped-call]
+        greatest, some = lax.pmax((greatest, some), PROCESSORS)
+        least = lax.pmin(least, PROCESSORS)
     return [jnp.where(some, least, 0), jnp.where(some, greatest, -1)]
 
 

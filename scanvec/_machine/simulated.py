@@ -99,11 +99,11 @@ class Simulated(Machine):
         """
         return blocks.vp_ratio(n, self.processors)
 
-    def to_numpy(self, v: Vector) -> npt.NDArray[np.generic]:  # noqa: D102
+    def to_numpy(self, v: Vector) -> npt.NDArray[np.generic]:
         with computing():
             return blocks.from_blocks(np.asarray(v._block), len(v))
 
-    def iota(self, n: int) -> Vector:  # noqa: D102
+    def iota(self, n: int) -> Vector:
         check_size(n)
         self._enter("map", n, 0)
         with computing():

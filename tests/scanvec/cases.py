@@ -70,3 +70,35 @@ def assert_same_bits(got: object, want: np.ndarray) -> None:
     assert got.dtype == want.dtype
     assert got.shape == want.shape
     assert got.tobytes() == want.tobytes(), f"got {got}, expected {want}"
+
+
+def program(cm: sv.Simulated, n: int = 100) -> np.ndarray:
+    """A sort and a look-up twice, each a phase, and copies: every primitive runs."""
+    v = cm.vector(np.random.default_rng(3).integers(0, 50, n))
+    for _ in range(2):
+        with cm.phase("sort"):
+            order = sv.rank(v)
+        with cm.phase("look up"):
+            v = sv.get(v, order)
+    copies, _ = sv.distribute(v, v % 3)
+    return copies.to_numpy()
+
+
+def square_and_sum(cm: sv.Simulated) -> None:
+    """The sum of squares: v * v, then a reduction."""
+    v = cm.vector(np.arange(8.0))
+    sv.reduce(v * v, sv.ADD)
+
+
+def count_letters(cm: sv.Simulated) -> None:
+    """How often each of 4 letters occurs: a concurrent write; and everyone reads its own letter's count."""
+    letters = cm.vector(np.array([0, 1, 0, 0, 2, 0, 3, 0]))
+    counts = sv.send(cm.full(8, 1, np.int32), letters, sv.ADD, into=cm.full(4, 0, np.int32))
+    sv.get(counts, letters)
+
+
+def unit_steps(program, model: sv.Model) -> float:
+    """The predicted time in steps of an abstract machine, for the tests of models."""
+    cm = sv.Simulated(4, model=model)
+    program(cm)
+    return round(cm.ledger.seconds / model.values["step"], 6)

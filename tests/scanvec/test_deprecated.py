@@ -28,7 +28,7 @@ FORMS = [
     (lambda: M.get(V, TO, where=FLAGS), lambda: M.get(V, TO, where=FLAGS, otherwise=0), "use otherwise=0"),
     (lambda: sv.scan(record=V, op=sv.ADD), lambda: sv.scan(V, sv.ADD), "scan(record=...) will go; use v=..."),
     (
-        lambda: sv.flag_merge(first=M.vector([1]), second=M.vector([2, 3]), flags=FLAGS),
+        lambda: sv.flag_merge(M.vector([1]), second=M.vector([2, 3]), flags=FLAGS),
         lambda: sv.flag_merge(M.vector([1]), M.vector([2, 3]), FLAGS),
         "(second=...) will go; use w=...",
     ),

@@ -8,14 +8,10 @@ import pytest
 
 import scanvec as sv
 
+from .cases import count_letters, square_and_sum
+
 # primitive, elements, VP ratio, messages, busiest, bytes, operations, accesses
 COLUMNS = ("primitive", "elements", "vp_ratio", "messages", "busiest", "bytes", "operations", "accesses")
-
-
-def square_and_sum(cm: sv.Simulated) -> None:
-    """The sum of squares: v * v, then a reduction."""
-    v = cm.vector(np.arange(8.0))
-    sv.reduce(v * v, sv.ADD)
 
 
 SQUARE_AND_SUM = [
@@ -45,13 +41,6 @@ REVERSE_AND_PACK = [
     # 7, 5, 3, 1 of processors 0 to 3 go to places 0 to 3, one on each processor: none moves
     ("send", 8, 2, 0, 0, 8, 1, 1),
 ]
-
-
-def count_letters(cm: sv.Simulated) -> None:
-    """How often each of 4 letters occurs: a concurrent write; and everyone reads its own letter's count."""
-    letters = cm.vector(np.array([0, 1, 0, 0, 2, 0, 3, 0]))
-    counts = sv.send(cm.full(8, 1, np.int32), letters, sv.ADD, into=cm.full(4, 0, np.int32))
-    sv.get(counts, letters)
 
 
 COUNT_LETTERS = [
@@ -87,68 +76,3 @@ def test_counts_do_not_change_from_run_to_run(program, expected):
         program(cm)
     assert machines[0].ledger == machines[1].ledger
     assert machines[0].ledger.seconds == machines[1].ledger.seconds
-
-
-def unit_steps(program, model: sv.Model) -> float:
-    cm = sv.Simulated(4, model=model)
-    program(cm)
-    return round(cm.ledger.seconds / model.values["step"], 6)
-
-
-@pytest.mark.parametrize(
-    ("model", "steps"),
-    [
-        # 2 products; 2 sweeps over 2 elements, and across: one step, or a tree over four, up and down
-        (sv.SCAN, 2 + 4 + 1),
-        (sv.CRCW_PRAM, 2 + 4 + 4),
-        (sv.EREW_PRAM, 2 + 4 + 4),
-        # one exchange for each of two dimensions; three sweeps of two rows
-        (sv.HYPERCUBE, 2 + 4 + 2),
-        (sv.MESH2D, 2 + 4 + 6),
-    ],
-)
-def test_unit_steps_of_a_sum(model, steps):
-    assert unit_steps(square_and_sum, model) == steps
-
-
-@pytest.mark.parametrize(
-    ("model", "steps"),
-    [
-        (sv.SCAN, 2 + 2),
-        (sv.CRCW_PRAM, 2 + 2),
-        # concurrent: 1 + log2(4) times as long
-        (sv.EREW_PRAM, 6 + 6),
-        # the diameter and the busiest processor's messages come on top
-        (sv.HYPERCUBE, 2 + 2 + 4 + 2 + 2 + 5),
-        (sv.MESH2D, 2 + 2 + 4 + 2 + 2 + 5),
-    ],
-)
-def test_unit_steps_of_concurrent_accesses(model, steps):
-    assert unit_steps(count_letters, model) == steps
-
-
-def test_seconds_of_a_cm5():
-    cm = sv.Simulated(4, model=sv.CM5)
-    count_letters(cm)
-    c = sv.CM5.values
-    # two steps of two elements a node; 4 messages of four bytes, and 5: a packet each
-    expected = 2 * (c["issue"] + 2 * c["route"]) + (4 + 5) * c["packet"]
-    assert cm.ledger.seconds == pytest.approx(expected)
-
-
-def test_a_long_message_is_several_packets_on_a_cm5():
-    cm = sv.Simulated(4, model=sv.CM5)
-    v = cm.vector(np.arange(8.0))
-    sv.permute((v, v, v), cm.vector(np.arange(8)[::-1]))
-    c = sv.CM5.values
-    # two messages of 24 bytes
-    assert cm.ledger.seconds == pytest.approx(c["issue"] + 2 * c["route"] + 2 * 2 * c["packet"])
-
-
-def test_seconds_of_a_cm2():
-    cm = sv.Simulated(4, model=sv.CM2)
-    square_and_sum(cm)
-    c = sv.CM2.values
-    # 8-byte sums are two words
-    expected = 2 * c["element"] + 2 * c["element"] + 2 * 2 * c["scan"] / c["clock"]
-    assert cm.ledger.seconds == pytest.approx(expected)

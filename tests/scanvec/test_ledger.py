@@ -5,6 +5,8 @@ import pytest
 
 import scanvec as sv
 
+from .cases import program
+
 BACKWARD = np.arange(8)[::-1]
 
 
@@ -110,7 +112,7 @@ def test_what_failed_is_not_entered(cm, v):
     assert [e.primitive for e in cm.ledger.entries] == ["map"]
 
 
-def program(cm: sv.Simulated) -> None:
+def pack_and_sort(cm: sv.Simulated) -> None:
     v = cm.vector([3, 1, 2, 1, 0, 3, 2, 2])
     with cm.phase("first"):
         flags = v > 1
@@ -122,7 +124,7 @@ def program(cm: sv.Simulated) -> None:
 
 
 def test_phases_and_operations(cm):
-    program(cm)
+    pack_and_sort(cm)
     seen = dict.fromkeys((e.phase, e.operation) for e in cm.ledger.entries)
     # the innermost phase and the outermost operation count: unique calls sort and pack
     assert list(seen) == [("first", "map"), ("inner", "pack"), ("first", "mine"), ("", "unique")]
@@ -135,15 +137,15 @@ def test_an_operation_is_named_when_all_arguments_are_given_by_keyword(cm, v):
 
 def test_two_runs_have_one_ledger():
     first, second = sv.Simulated(processors=4), sv.Simulated(processors=4)
-    program(first)
-    program(second)
+    pack_and_sort(first)
+    pack_and_sort(second)
     assert first.ledger == second.ledger
     assert first.ledger.steps > 10
 
 
 def test_machines_that_keep_no_ledger_take_phases_too():
     device = sv.Device()
-    program(device)
+    pack_and_sort(device)
     assert device.ledger is None
 
 
@@ -153,36 +155,22 @@ def test_sums(cm, v):
     assert (cm.ledger.steps, cm.ledger.elements, cm.ledger.messages) == (2, 16, 16)
 
 
-def test_tables(cm, v):
-    with cm.phase("a"):
-        sv.split(v, v > 3)
-    with cm.phase("b"):
+def test_by_iteration():
+    cm = sv.Simulated(4, model=sv.SCAN)
+    program(cm)
+    rows = cm.ledger.by_iteration("sort", "look up")
+    assert len(rows) == 2
+    assert sum(r.steps for r in rows) == sum(cm.ledger.by_phase()[p].steps for p in ("sort", "look up"))
+    assert [r.steps for r in cm.ledger.by_iteration("look up")] == [1, 1]
+
+
+def test_loads_of_processors():
+    cm = sv.Simulated(4)
+    v = cm.vector(np.arange(5))  # on three processors: 2, 2, 1
+    with cm.phase("one"):
+        sv.get(v, cm.vector(np.zeros(5, int)))
+    with cm.phase("two"):
         _ = v + 1
-    by_primitive = {row.primitive: row for row in cm.ledger.table("primitive")}
-    assert list(by_primitive) == ["map", "scan", "send"]
-    # > and the conversion, the indices and the targets of split, and +
-    assert by_primitive["map"] == sv.Row("", "", "map", 5, 40, 10, 2, 0, 0)
-    assert by_primitive["scan"] == sv.Row("", "", "scan", 1, 8, 2, 2, 3, 1)
-    assert [(row.phase, row.steps) for row in cm.ledger.table("phase")] == [("a", 6), ("b", 1)]
-    assert [(r.phase, r.operation, r.steps) for r in cm.ledger.table("operation", "phase")] == [
-        ("a", "map", 1),
-        ("a", "split", 5),
-        ("b", "map", 1),
-    ]
-    # without keys: by operation and primitive, which is what is printed
-    assert [(r.operation, r.primitive) for r in cm.ledger.table()] == [
-        ("map", "map"),
-        ("split", "map"),
-        ("split", "scan"),
-        ("split", "send"),
-    ]
-    lines = str(cm.ledger).splitlines()
-    assert lines[0].split()[:5] == ["operation", "primitive", "steps", "elements", "vp_steps"]
-    assert lines[1].split() == ["map", "map", "2", "16", "4", "2", "0", "0"]
-    assert len({len(line) for line in lines}) == 1
-    with pytest.raises(ValueError, match="by 'bytes'; use phase, operation, primitive"):
-        cm.ledger.table("bytes")
-
-
-def test_an_empty_ledger_prints_its_head(cm):
-    assert str(cm.ledger).split()[0] == "operation"
+    assert cm.ledger.held("one").tolist() == cm.ledger.held("two").tolist() == [2, 2, 1, 0]
+    assert cm.ledger.held().tolist() == [4, 4, 2, 0]
+    assert {phase: load.tolist() for phase, load in cm.ledger.handled.items()} == {"one": [3, 2, 1, 0]}

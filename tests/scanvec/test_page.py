@@ -27,7 +27,7 @@ def test_the_experiment_of_ones_own(tmp_path, monkeypatch, capsys):
 
 
 def test_the_names_of_the_table_exist():
-    table = PAGE[PAGE.index("## Blelloch's names") :]
+    table = PAGE[PAGE.index("## Names") :]
     used = set(re.findall(r"sv\.(\w+)", table))
     assert used <= set(sv.__all__)
     # all operations are there

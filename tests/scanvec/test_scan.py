@@ -128,3 +128,19 @@ def test_a_user_defined_operator_from_the_documentation():
     for machine in MACHINES:
         got = sv.scan(machine.vector(np.array([3, 1, 4, 1, 5], np.int16)), longest)
         assert_same(got, np.array([0, 3, 3, 4, 4], np.int16))
+
+
+DISTRIBUTED = [(sv.ADD, "int32"), (sv.ADD, "bool"), (sv.MAX, "float32"), (sv.AND, "uint16"), (sv.OR, "bool"),
+               (sv.COPY, "int64")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("op", "dtype"), DISTRIBUTED, ids=lambda x: getattr(x, "name", x))
+@given(lengths=lengths_of_segments, data=st.data())
+def test_op_distribute(op, dtype, lengths, data):
+    values = of_dtype(data.draw(words(sum(lengths))), dtype)
+    ids = twins.ids_of(lengths)
+    for machine in (MACHINES[0], MACHINES[1 + DISTRIBUTED.index((op, dtype)) % 4]):
+        v = machine.vector(values)
+        segments = sv.Segments.from_lengths(machine.vector(lengths, np.int32))
+        assert_same(sv.op_distribute(v, op), twins.distribute_array(op, values, 0 * ids))
+        assert_same(sv.op_distribute(v, op, segments), twins.distribute_array(op, values, ids))

@@ -117,11 +117,3 @@ def test_the_x64_flag_of_jax_stays_as_it_is():
         "assert jnp.asarray([0.5]).dtype == 'float32'\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
-
-
-@pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_full_like(machine):
-    v = machine.vector([1, 2, 3], np.int16)
-    assert_same(sv.full_like(v, 7), np.full(3, 7, np.int16))
-    assert_same(sv.full_like((v, v > 1), 0)[1], np.zeros(3, bool))
-    assert_same(sv.full_like(v, 0.5, np.float32), np.full(3, 0.5, np.float32))

@@ -1,4 +1,4 @@
-"""Elementwise maps under a context, with records and scalars."""
+"""Maps under a context, with records and scalars; iota and full, on every machine."""
 
 from typing import NamedTuple
 
