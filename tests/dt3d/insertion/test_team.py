@@ -69,6 +69,16 @@ def assert_one_answer(points, runs):
     assert threading.active_count() == 1
 
 
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("n", [0, 5, 100])
+def test_chunks_are_all_of_a_range(n, threads, monkeypatch):
+    monkeypatch.setattr(team, "ROWS_PER_CHUNK", 7)
+    chunks = []
+    team.in_chunks(threads, lambda begin, end: chunks.append(range(begin, end)), n)
+    assert sorted(i for chunk in chunks for i in chunk) == list(range(n))
+    assert len(chunks) == (1 if threads == 1 or n < 14 else -(-n // 7))
+
+
 @sets(*SETS)
 def test_one_answer(name, yielding):
     assert_one_answer(SETS[name], 7)
