@@ -90,7 +90,7 @@ def test_a_growing_triangulation_has_this_layout():
     assert (orient(*(corners[:, k] for k in range(4))) > 0).all()
 
 
-@pytest.mark.parametrize("n", [0, 1, 1000])
+@pytest.mark.parametrize("n", [1, 3, 1000])
 def test_arrays_begin_at_a_line_of_the_cache(n):
     array = m.aligned(n, np.float64)
     assert (len(array), array.dtype) == (n, np.float64)
