@@ -10,8 +10,8 @@ import numpy.typing as npt
 from ._numba.kernel_cache import cached_njit
 from ._numba.unowned import unowned
 from ._topology import OUTSIDE
-from .predicates.filtered import orient3d
-from .predicates.filtered2d import orient2d
+from .predicates.plane import orient2d
+from .predicates.space import orient3d
 
 
 class Complex(NamedTuple):

@@ -14,8 +14,7 @@ import numpy.typing as npt
 from . import _topology
 from ._numba.kernel_cache import cached_njit
 from ._proof import Space, Verification, prove
-from .predicates.filtered import in_sphere, orient3d
-from .predicates.perturbed import inside, orientation_with
+from .predicates.space import in_sphere, inside, orient3d, orientation_with
 
 __all__ = ["Verification", "verify"]
 

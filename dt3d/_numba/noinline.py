@@ -37,9 +37,7 @@ def call_noinline(
     -2
     """
     kind = typingctx.resolve_value_type(function)
-    # one copy serves indices of all widths
-    wide = tuple(types.int64 if isinstance(k, types.Integer) else k for k in kinds)
-    inner = kind.get_call_type(typingctx, wide, {})
+    inner = kind.get_call_type(typingctx, tuple(map(_widened, kinds)), {})
 
     def codegen(
         context: BaseContext, builder: ir.IRBuilder, signature: Signature, values: Sequence[ir.Value]
@@ -56,3 +54,10 @@ def call_noinline(
         return result
 
     return inner.return_type(*kinds), codegen
+
+
+def _widened(kind: types.Type) -> types.Type:
+    """Return 64 bits for indices of all widths, also in tuples, so that one copy of the code serves them."""
+    if isinstance(kind, types.Integer):
+        return types.int64
+    return types.Tuple([_widened(k) for k in kind]) if isinstance(kind, types.BaseTuple) else kind

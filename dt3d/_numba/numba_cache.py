@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from typing import ClassVar
 
 from numba.core import caching, config
 from numba.core.base import BaseContext
@@ -53,7 +54,7 @@ class _UserProvidedZip(caching.ZipCacheLocator):
 
 
 class _Implementation(caching.CompileResultCacheImpl):
-    _locator_classes = [
+    _locator_classes: ClassVar[list[type]] = [
         _UserProvidedZip,
         *caching.CompileResultCacheImpl._locator_classes,
         _UserProvidedReadable,

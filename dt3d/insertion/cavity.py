@@ -9,7 +9,7 @@ from __future__ import annotations
 import numba
 
 from .._numba.kernel_cache import cached_njit
-from ..predicates.perturbed import inside, orientation_with
+from ..predicates.space import inside, orientation_with
 from .mesh import (
     INFINITE,
     mark,

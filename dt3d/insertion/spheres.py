@@ -38,7 +38,7 @@ import numba
 import numpy as np
 
 from .._numba.kernel_cache import cached_njit
-from ..predicates.filtered import orient3d
+from ..predicates.space import orient3d
 from .mesh import radius_above, set_center, set_radius
 
 U = 2.0**-53

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
-from ..predicates.filtered import ORIENT3D_BOUND, orient3d
+from ..predicates.space import ORIENT3D_BOUND, orient3d
 from .mesh import INFINITE, neighbor, offset, side, site_at_hand, tetrahedron, tetrahedron_of, vertex
 from .ownership import Part, owns, owns_some
 

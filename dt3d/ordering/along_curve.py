@@ -9,9 +9,9 @@ import numpy as np
 
 from .._errors import InternalError
 from .._numba.kernel_cache import cached_njit
+from ..predicates.lexicographic import before
 from .duplicates import copies_among
 from .hilbert import PLANE_BITS, SPACE_BITS, Grid, keys_in_plane, keys_in_space
-from .lexicographic import before
 from .sorting import sort_runs
 
 SHORT_RUN = 128  # sites in one cell that are sorted by coordinates; more are placed on a finer curve
@@ -33,6 +33,7 @@ def along_curve_in_plane(sites: np.ndarray, threads: int = 1) -> tuple[np.ndarra
     sites : float64 (n, 2)
         Finite.
     threads : int
+        Runs that are sorted at the same time, at most.
     """
     n = len(sites)
     grid = _grid(sites, PLANE_BITS, 64)

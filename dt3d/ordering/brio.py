@@ -88,7 +88,10 @@ def brio(part: np.ndarray, parts: int, seed: int) -> tuple[np.ndarray, np.ndarra
     ----------
     part : int32 (n,)
         The part of each site, from 0 to parts - 1.
-    parts, seed : int
+    parts : int
+        How many parts there are.
+    seed : int
+        Another one gives other rounds.
 
     Returns
     -------

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._input import first_copies
 from .._numba.kernel_cache import cached_njit
-from .lexicographic import equal
+from ..predicates.lexicographic import equal
 
 
 def copies_among(sites: np.ndarray, crowded: np.ndarray) -> np.ndarray:

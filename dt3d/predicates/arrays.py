@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-# where the signs of cases (m, k, d) come from
-BACKENDS = {"numba": "._numba_backend", "jax": "._jax_backend"}
+Signs = NDArray[np.int8]
 
 
-def orient2d(a: Any, b: Any, c: Any, *, backend: str = "numba") -> Any:
+def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike, *, backend: str = "numba") -> Signs:
     """Signs of det[b-a, c-a]: positive for a turn to the left.
 
     Parameters
@@ -35,7 +32,7 @@ def orient2d(a: Any, b: Any, c: Any, *, backend: str = "numba") -> Any:
     return _signs("orient2d", 2, backend, a, b, c)
 
 
-def orient3d(a: Any, b: Any, c: Any, d: Any, *, backend: str = "numba") -> Any:
+def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike, *, backend: str = "numba") -> Signs:
     """Signs of det[b-a, c-a, d-a]: positive for the origin and the three unit vectors in order.
 
     0 exactly where the four are coplanar. Points are (..., 3); the rest is as for `orient2d`.
@@ -43,7 +40,7 @@ def orient3d(a: Any, b: Any, c: Any, d: Any, *, backend: str = "numba") -> Any:
     return _signs("orient3d", 3, backend, a, b, c, d)
 
 
-def in_circle(a: Any, b: Any, c: Any, d: Any, *, backend: str = "numba") -> Any:
+def in_circle(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike, *, backend: str = "numba") -> Signs:
     """Signs of the in-circle determinant: for positive abc 1 where d is inside their circle, 0 where on it.
 
     Points are (..., 2); the rest is as for `orient2d`.
@@ -51,7 +48,15 @@ def in_circle(a: Any, b: Any, c: Any, d: Any, *, backend: str = "numba") -> Any:
     return _signs("in_circle", 2, backend, a, b, c, d)
 
 
-def in_sphere(a: Any, b: Any, c: Any, d: Any, e: Any, *, backend: str = "numba") -> Any:
+def in_sphere(
+    a: ArrayLike,
+    b: ArrayLike,
+    c: ArrayLike,
+    d: ArrayLike,
+    e: ArrayLike,
+    *,
+    backend: str = "numba",
+) -> Signs:
     """Signs of the in-sphere determinant: for positive abcd 1 where e is inside their sphere, 0 where on it.
 
     Points are (..., 3); the rest is as for `orient2d`.
@@ -59,7 +64,7 @@ def in_sphere(a: Any, b: Any, c: Any, d: Any, e: Any, *, backend: str = "numba")
     return _signs("in_sphere", 3, backend, a, b, c, d, e)
 
 
-def _signs(predicate: str, dimension: int, backend: str, *points: Any) -> Any:
+def _signs(predicate: str, dimension: int, backend: str, *points: ArrayLike) -> Signs:
     if backend not in BACKENDS:
         msg = f"backend must be one of {', '.join(map(repr, BACKENDS))}, got {backend!r}"
         raise ValueError(msg)
@@ -72,5 +77,27 @@ def _signs(predicate: str, dimension: int, backend: str, *points: Any) -> Any:
         raise ValueError(msg)
     shape = arrays[0].shape[:-1]
     cases = np.stack([x.reshape(-1, dimension) for x in arrays], axis=1)
-    signs = import_module(BACKENDS[backend], __package__).signs(predicate, cases)
-    return signs.reshape(shape)[()]
+    signs: Signs = BACKENDS[backend](predicate, cases).reshape(shape)[()]
+    return signs
+
+
+def _compiled(predicate: str, cases: np.ndarray) -> np.ndarray:
+    """Return the signs of cases float64 (m, k, d), int8 (m,), by the compiled predicates."""
+    from . import plane, space
+    from .workspace import scaled, work_array
+
+    out = np.empty(len(cases), np.int8)
+    cases = scaled(cases)
+    loop = getattr(plane if cases.shape[2] == 2 else space, f"{predicate}_of_cases")
+    loop(cases, work_array(cases), out)
+    return out
+
+
+def _traced(predicate: str, cases: np.ndarray) -> np.ndarray:
+    """Return the same by JAX."""
+    from .traced.mapped import signs
+
+    return signs(predicate, cases)
+
+
+BACKENDS = {"numba": _compiled, "jax": _traced}  # what returns signs, int8 (m,), of cases float64 (m, k, d)

@@ -9,8 +9,6 @@ Compiled by numba without fast-math, so that no operation is contracted or reord
 
 from __future__ import annotations
 
-from typing import Any
-
 from numba import types
 from numba.extending import intrinsic
 
@@ -18,13 +16,13 @@ from .._numba.kernel_cache import cached_njit
 
 
 @intrinsic
-def fma(context: Any, a: Any, b: Any, c: Any) -> Any:
+def fma(typingctx, a, b, c):
     """a b + c, rounded once."""
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    def codegen(context, builder, signature, args):
         return builder.fma(*args)
 
-    return types.float64(types.float64, types.float64, types.float64), generate
+    return types.float64(types.float64, types.float64, types.float64), codegen
 
 
 @cached_njit
@@ -84,3 +82,17 @@ def square(p):
     for k in range(1, len(p)):
         total = add(total, multiply(p[k], p[k]))
     return total
+
+
+@cached_njit
+def on_lattice(rows, m, bits):
+    """Whether all entries are single doubles, and multiples of a power of two of which m has at most 2^bits.
+
+    Adding c rounds to multiples of its unit in the last place, of which m has 2^(bits - 1) to 2^bits.
+    """
+    c = m * 2.0 ** (53 - bits)
+    for r in rows:
+        for x in r:
+            if x[1] != 0.0 or (x[0] + c) - c != x[0]:
+                return False
+    return True

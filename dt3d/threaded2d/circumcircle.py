@@ -23,7 +23,7 @@ import numpy as np
 from .._errors import InternalError
 from .._numba.atomics import load, load_acquire
 from .._numba.kernel_cache import cached_njit
-from ..predicates.filtered2d import orient2d
+from ..predicates.plane import orient2d
 from . import columns as c
 from .columns import side, triangle
 from .configuration import Options

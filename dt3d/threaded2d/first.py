@@ -7,7 +7,7 @@ import numpy as np
 from .._input import no_area
 from .._numba.kernel_cache import cached_njit
 from ..predicates import work_array
-from ..predicates.filtered2d import orient2d
+from ..predicates.plane import orient2d
 
 
 @cached_njit(nogil=True)

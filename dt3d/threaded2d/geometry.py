@@ -16,42 +16,8 @@ from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.noinline import call_noinline
-from ..predicates.filtered2d import in_circle, orient2d
+from ..predicates.plane import inside, orient2d
 from .columns import INFINITE
-
-
-@cached_njit
-def _before(points, a, b):
-    """Whether a comes before b in the lexicographic order of coordinates."""
-    return points[a, 0] < points[b, 0] or (points[a, 0] == points[b, 0] and points[a, 1] < points[b, 1])
-
-
-@cached_njit
-def _inside_tied(points, a, b, c, q, w):
-    """The perturbed in-circle test of a site on the circle of abc: the first of the four, in order, decides.
-
-    As `predicates.perturbed2d`, but by comparing coordinates: ranks would cost a sort of all sites, which is
-    longer than a tenth of the triangulation.
-    """
-    first, k = q, 3
-    if _before(points, a, first):
-        first, k = a, 0
-    if _before(points, b, first):
-        first, k = b, 1
-    if _before(points, c, first):
-        first, k = c, 2
-    if k == 3:
-        return False
-    if k == 0:
-        return orient2d(points, q, b, c, w) > 0
-    if k == 1:
-        return orient2d(points, a, q, c, w) > 0
-    return orient2d(points, a, b, q, w) > 0
-
-
-@intrinsic
-def _call_inside_tied(typingctx, points, a, b, c, q, w):
-    return call_noinline(typingctx, _inside_tied, (points, a, b, c, q, w))
 
 
 @cached_njit
@@ -78,8 +44,7 @@ def conflicts(points, a, b, c, q, w):
     """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of
     them."""
     if min(a, b, c) >= 0:
-        sign = in_circle(points, a, b, c, q, w)
-        return sign > 0 if sign != 0 else _call_inside_tied(points, a, b, c, q, w)
+        return inside(points, (a, b, c), q, w)
     if a == INFINITE:
         return _call_conflicts_with_ghost(points, b, c, q, w)
     if b == INFINITE:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from .. import _topology
 from .._numba.kernel_cache import cached_njit
 from .._proof import Space, Verification, prove
-from ..predicates.filtered2d import in_circle, orient2d
+from ..predicates.plane import in_circle, orient2d
 from .geometry import conflicts
 
 __all__ = ["Verification", "verify"]

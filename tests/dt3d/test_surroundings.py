@@ -89,11 +89,11 @@ def test_a_folder_that_was_chosen_and_cannot_be_written_ends_no_import(installed
 
 @pytest.mark.slow
 def test_an_update_in_place_of_what_is_compiled_in_is_seen(installed, tmp_path):
-    """The tie rule of the perturbation is compiled into insertion; its file keeps its time."""
+    """The order of the perturbation is compiled into insertion; its file keeps its time."""
     before = run(installed, GRID).stdout
     again = run(installed, GRID)
     assert (again.stdout, again.stderr) == (before, "")  # nothing is compiled
-    rule = tmp_path / "dt3d/predicates/perturbed.py"
+    rule = tmp_path / "dt3d/predicates/lexicographic.py"
     text, time = rule.read_text(), rule.stat()
     # one coordinate in reverse; with all three a grid, which is its own mirror image, has the same tetrahedra
     right, mirrored = "return points[i, k] < points[j, k]", "return (points[i, k] < points[j, k]) == (k != 1)"

@@ -4,7 +4,7 @@ import numba
 import numpy as np
 import pytest
 
-from dt3d.predicates.filtered2d import orient2d
+from dt3d.predicates.plane import orient2d
 from dt3d.threaded2d import columns as c
 from dt3d.threaded2d import correction, dag
 from dt3d.threaded2d.columns import edges_of, side, triangle

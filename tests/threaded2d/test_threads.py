@@ -5,52 +5,13 @@ import signal
 import threading
 import time
 
-import numba
-import numpy as np
 import pytest
 
 from dt3d import threaded2d
-from dt3d._numba import atomics
 from dt3d._numba.threads import run_threads
 from dt3d.threaded2d.in_place import star
 
 from .families import uniform
-
-
-@numba.njit(nogil=True)
-def _count(words, rounds, me):
-    for _ in range(rounds):
-        while not atomics.acquire(words, (0, 0), me):
-            pass
-        words[1, 0] += 1  # not atomic: the lock has to do it
-        atomics.release(words, (0, 0))
-        atomics.add(words, (2, 0), 2)
-
-
-def test_locks_and_additions_of_contending_threads():
-    words = atomics.padded(3)
-    run_threads([lambda k=k: _count(words, 20_000, k + 1) for k in range(4)], lambda: None)
-    assert words[:, 0].tolist() == [0, 80_000, 160_000]
-
-
-@numba.njit
-def _single(words):
-    old = atomics.add(words, 0, 2)
-    missed = atomics.compare_and_swap(words, 0, 4, 9)
-    swapped = atomics.compare_and_swap(words, 0, 5, 7)
-    atomics.store_release(words, 1, atomics.load_acquire(words, 0) + 1)
-    return old, missed, swapped
-
-
-def test_atomics_one_by_one():
-    words = np.array([3, 0], np.int32)
-    assert _single(words) == (3, False, True)
-    assert words.tolist() == [7, 8]
-
-
-def test_only_integers_are_atomic():
-    with pytest.raises(numba.TypingError, match="integer arrays"):
-        _single(np.zeros(2))
 
 
 def test_an_exception_in_one_thread_stops_the_others(monkeypatch):

@@ -11,7 +11,7 @@ import numpy as np
 
 import scanvec as sv
 
-from ...predicates.integers import limbs_of
+from ...predicates.traced.digits import limbs_of
 from ..buckets import bucket
 from ..dead_faces import distinct_facets
 from ..exact.decisions import expand_exactly

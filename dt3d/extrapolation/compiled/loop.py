@@ -15,7 +15,7 @@ import scanvec as sv
 from scanvec._running import computing
 
 from ..._errors import InternalError
-from ...predicates.integers import limbs_of
+from ...predicates.traced.digits import limbs_of
 from ..outcome import Outcome
 from ..points import Point
 from ..warrants import NO_SITE

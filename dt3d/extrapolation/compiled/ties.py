@@ -13,7 +13,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from ...predicates import elementwise
+from ...predicates.traced import one_case
 from ..boxes import Box, contains
 from ..exact.expansion import cap_cells
 from ..exact.filtered_distance import distance_bounds, frame
@@ -101,12 +101,12 @@ def _decide(
         challenger = at(windows.members, first + jnp.maximum(place, 0))
         corners = [_digits_of(digits, v) for v in face]
         there = _digits_of(digits, challenger)
-        above = rest & (jax.vmap(elementwise.orient3d)(corners[0], corners[1], corners[2], there) > 0)
+        above = rest & (jax.vmap(one_case.orient3d)(corners[0], corners[1], corners[2], there) > 0)
         some = champion != NO_SITE
         apex = jnp.where(some, champion, challenger)
         vertices = (*corners, _digits_of(digits, apex))
         ranks = tuple(at(rank, v) for v in (*face, apex))
-        wins = jax.vmap(elementwise.inside)(vertices, ranks, there, at(rank, challenger))
+        wins = jax.vmap(one_case.inside)(vertices, ranks, there, at(rank, challenger))
         return tuple(left), jnp.where(above & (~some | wins), challenger, champion)
 
     def unfinished(state: Any) -> Any:

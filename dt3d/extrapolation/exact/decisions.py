@@ -2,7 +2,7 @@
 
 Sites are perturbed symbolically: site p is lifted to height |p|^2 + e_p with infinitesimals e_p. Then each
 face has one right fourth vertex, which depends on nothing but the sites: whoever expands it finds the same
-one (see `dt3d.predicates.perturbed`).
+one (see `dt3d.predicates.space`).
 """
 
 from __future__ import annotations

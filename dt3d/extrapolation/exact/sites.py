@@ -10,8 +10,9 @@ import numpy as np
 
 import scanvec as sv
 
-from ...predicates import elementwise
-from ...predicates.integers import BITS, limbs_of
+from ...predicates.traced import one_case
+from ...predicates.traced.digits import limbs_of
+from ...predicates.workspace import DIGIT_BITS
 from ..buckets import Buckets
 
 # With differences of so many bits the height of a site above a face, a sum of six products of three, is
@@ -39,7 +40,7 @@ def small_integers(limbs: np.ndarray) -> bool:
     """Whether coordinates, digits (L, n, 3), are small integers times one power of two, up to an offset."""
     if len(limbs) > 2:
         return False
-    values = sum(x.astype(np.int64) << (BITS * k) for k, x in enumerate(limbs))
+    values = sum(x.astype(np.int64) << (DIGIT_BITS * k) for k, x in enumerate(limbs))
     return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
 
 
@@ -83,7 +84,7 @@ class ExactSites:
     def orientation(self, face: Any, site: sv.Vector) -> sv.Vector:
         """Signs of det[b-a, c-a, d-a], int32 (m,), of m faces (a, b, c) and sites d."""
         points = (sv.get(self.digits, v) for v in (*face, site))
-        return site.machine.map(elementwise.orient3d, *points)
+        return site.machine.map(one_case.orient3d, *points)
 
     def inside(self, face: Any, apex: sv.Vector, site: sv.Vector) -> sv.Vector:
         """Whether sites are inside the perturbed circumspheres of m positive tetrahedra (a, b, c, apex)."""
@@ -94,4 +95,4 @@ class ExactSites:
 
 
 def _inside(a: Any, b: Any, c: Any, d: Any, e: Any, *ranks: Any) -> Any:
-    return elementwise.inside((a, b, c, d), ranks[:4], e, ranks[4])
+    return one_case.inside((a, b, c, d), ranks[:4], e, ranks[4])

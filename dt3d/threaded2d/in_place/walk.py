@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..._numba.atomics import load_acquire
 from ..._numba.kernel_cache import cached_njit
-from ...predicates.filtered2d import orient2d
+from ...predicates.plane import orient2d
 from .. import columns as c
 from ..columns import side, triangle
 

@@ -1,4 +1,4 @@
-"""The work array of the compiled predicates: what they know of the points, and where they compute.
+"""The workspace of the compiled predicates: what they know of the points, and where they compute.
 
 The first entry is the *slack*, which every bound of a floating-point error gets added. The bounds are
 relative to the greatest differences of coordinates, and hold if no operation under- or overflows. With
@@ -13,22 +13,28 @@ Behind it is room for the integers of the exact stage.
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
-SLACK = 0
+SLACK_INDEX = 0
+# The slack is nothing beside a step of a lattice if it is less than this part of M^3 or M^5, with M the
+# greatest difference of coordinates.
+NEGLIGIBLE = 2.0**-110
+DIGIT_BITS = 27  # of exact integers, here and in JAX
+HALF_DIGIT = 1 << (DIGIT_BITS - 1)
 FACTORS = 1000  # exponents of powers of two that are doubles, and so are their reciprocals
-SIZE = 2048  # an in-sphere determinant of 78 digits a coordinate takes 24 * 78 integers
+WORKSPACE_SIZE = 2048  # an in-sphere determinant of 78 digits a coordinate takes 24 * 78 integers
 
 
 def work_array(points: np.ndarray) -> np.ndarray:
-    """What one thread's predicates of rows of ``points``, float64 (n, d), work in, float64 (SIZE,)."""
-    w = np.empty(SIZE)
+    """Return what one thread's predicates of rows of ``points`` work in, float64 (WORKSPACE_SIZE,)."""
+    w = np.empty(WORKSPACE_SIZE)
     greatest = float(np.abs(points).max(initial=1))
-    w[SLACK] = 2.0**-1000 * greatest**5 if greatest < 2.0**200 else np.inf
+    w[SLACK_INDEX] = 2.0**-1000 * greatest**5 if greatest < 2.0**200 else np.inf
     return w
 
 
-def scaled(points: np.ndarray) -> np.ndarray:
-    """The points times a power of two, so that the greatest coordinate is about 1, where that is exact.
+def scaled(points: npt.ArrayLike) -> np.ndarray:
+    """Return points times a power of two, so that the greatest coordinate is about 1, where that is exact.
 
     It is unless that pushes the least one below 2^-1022; then the points themselves.
     """

@@ -1,10 +1,10 @@
 """Exact signs of the predicates, compiled, for any finite coordinates: in integers of any size.
 
-All coordinates are multiples of one power of two. A number is some digits in a row in the work array, named
+All coordinates are multiples of one power of two. A number is some digits in a row in the workspace, named
 by the place of the first: the value is the sum of x[at + i] 2^(27 i). Digits have signs of their own, as in
-`integers`, with h = 2^26: after `_carry` all are at most h but for the highest, which keeps what has no place
-above it, at most 2^30. A column of a product is then at most h^2 times the length of the shorter factor, at
-most 156, and two products of a highest digit; and four such columns are less than 2^63.
+`traced/digits.py`, with h = 2^26: after `_carry` all are at most h but for the highest, which keeps what has
+no place above it, at most 2^30. A column of a product is then at most h^2 times the length of the shorter
+factor, at most 156, and two products of a highest digit; and four such columns are less than 2^63.
 
 First in the array are up to four rows of differences, each a number for each coordinate, of as many digits n
 as these points need: 78 for the greatest and the least floating-point number. What is computed from them lies
@@ -13,17 +13,12 @@ behind.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numba import types
 from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
-from .work import SLACK
-
-BITS = 27
-HALF = 1 << (BITS - 1)
+from .workspace import DIGIT_BITS, HALF_DIGIT, SLACK_INDEX
 
 
 @cached_njit
@@ -77,18 +72,18 @@ def in_sphere_exact(points, a, b, c, d, e, w):
 
 @cached_njit
 def _integers(w):
-    """The work array behind the slack, for integers."""
-    return w[SLACK + 1 :].view(np.int64)
+    """The workspace behind the slack, for integers."""
+    return w[SLACK_INDEX + 1 :].view(np.int64)
 
 
 @intrinsic
-def _bits(context: Any, x: Any) -> Any:
+def _bits(typingctx, x):
     """The 64 bits of a double, as an integer."""
 
-    def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+    def codegen(context, builder, signature, args):
         return builder.bitcast(args[0], context.get_value_type(types.int64))
 
-    return types.int64(types.float64), generate
+    return types.int64(types.float64), codegen
 
 
 @cached_njit
@@ -117,7 +112,7 @@ def _enter(points, rows, origin, x):
     least, greatest = _reach(points, origin, 4000, 0)
     for i in rows:
         least, greatest = _reach(points, i, least, greatest)
-    n = max(greatest - least, 0) // BITS + 1
+    n = max(greatest - least, 0) // DIGIT_BITS + 1
     at = 0
     for i in rows:
         for c in range(points.shape[1]):
@@ -135,8 +130,8 @@ def _add_coordinate(x, at, value, unit):
     m, e = _parts(value)
     if e < unit:
         m, e = m >> (unit - e), unit
-    place, shift = divmod(e - unit, BITS)
-    low, high = (m & (2 * HALF - 1)) << shift, (m >> BITS) << shift
+    place, shift = divmod(e - unit, DIGIT_BITS)
+    low, high = (m & (2 * HALF_DIGIT - 1)) << shift, (m >> DIGIT_BITS) << shift
     sign = -1 if value < 0.0 else 1
     if low != 0:
         x[at + place] += sign * low
@@ -191,8 +186,8 @@ def _add_product(x, at, a, na, b, nb, sign):
 @cached_njit
 def _carry(x, at, n):
     for i in range(at, at + n - 1):
-        over = (x[i] + HALF) >> BITS
-        x[i] -= over << BITS
+        over = (x[i] + HALF_DIGIT) >> DIGIT_BITS
+        x[i] -= over << DIGIT_BITS
         x[i + 1] += over
 
 

@@ -15,14 +15,13 @@ in `determinants` is greater.
 
 from __future__ import annotations
 
-from typing import Any
-
+import jax
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
 from jax import dtypes, lax
 
-BITS = 27
-HALF = 1 << (BITS - 1)
+from ..workspace import DIGIT_BITS, HALF_DIGIT
 
 # Lengths of coordinates that are compiled for. The last holds every finite float64: its 27 * 78 - 1 bits are
 # more than the 2098 between 2^-1074 and 2^1024.
@@ -32,8 +31,8 @@ LENGTHS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 78)
 UNROLLED = 8
 
 
-def limbs_of(points: Any) -> np.ndarray:
-    """Finite coordinates as integers, exactly: int32 (L, n, d) for float64 (n, d).
+def limbs_of(points: npt.ArrayLike) -> np.ndarray:
+    """Return finite coordinates as integers, exactly: int32 (L, n, d) for float64 (n, d).
 
     One power of two for all makes them integers. L is the least of `LENGTHS` that holds the greatest: 1 for
     lattices of up to 2^26 steps, 2 for multiples of 2^-53 in the unit cube, 3 or 4 for other random floats,
@@ -53,22 +52,22 @@ def limbs_of(points: Any) -> np.ndarray:
     _, width = np.frexp(mantissa.astype(np.float64))  # an odd mantissa of 53 bits is exact
     shift = np.where(used, exponent - unit, 0)
     bits = int((shift + width).max(initial=1))
-    length = next(n for n in LENGTHS if BITS * n - 1 >= bits)
+    length = next(n for n in LENGTHS if DIGIT_BITS * n - 1 >= bits)
 
     digits = np.zeros((length + 2, points.size), np.int64)
-    place, column = shift // BITS, np.arange(points.size)
-    low, high = mantissa & (2 * HALF - 1), mantissa >> BITS
-    digits[place, column] = low << shift % BITS
-    digits[place + 1, column] = high << shift % BITS
+    place, column = shift // DIGIT_BITS, np.arange(points.size)
+    low, high = mantissa & (2 * HALF_DIGIT - 1), mantissa >> DIGIT_BITS
+    digits[place, column] = low << shift % DIGIT_BITS
+    digits[place + 1, column] = high << shift % DIGIT_BITS
     for i in range(length - 1):
-        over = (digits[i] + HALF) >> BITS
-        digits[i] -= over << BITS
+        over = (digits[i] + HALF_DIGIT) >> DIGIT_BITS
+        digits[i] -= over << DIGIT_BITS
         digits[i + 1] += over
     digits[:, fraction < 0] *= -1
     return digits[:length].astype(np.int32).reshape(length, *points.shape)
 
 
-def product(a: Any, b: Any) -> Any:
+def product(a: jax.Array, b: jax.Array) -> jax.Array:
     """a b, int64 (len(a) + len(b), ...) with digits that have not been carried; the other axes broadcast.
 
     The highest digit is zero, for the carry.
@@ -87,27 +86,28 @@ def product(a: Any, b: Any) -> Any:
         rows = [jnp.pad(a[i] * b, [(i, len(a) - i), *rest]) for i in range(len(a))]
         return sum(rows[1:], rows[0])
 
-    def row(i: Any, total: Any) -> Any:
+    def row(i: jax.Array, total: jax.Array) -> jax.Array:
         part = lax.dynamic_slice_in_dim(total, i, n)
         part = part + lax.dynamic_index_in_dim(a, i, keepdims=False) * b
         return lax.dynamic_update_slice_in_dim(total, part, i, 0)
 
-    return lax.fori_loop(0, len(a), row, jnp.zeros((len(a) + n, *shape), jnp.int64))
+    total: jax.Array = lax.fori_loop(0, len(a), row, jnp.zeros((len(a) + n, *shape), jnp.int64))
+    return total
 
 
-def carry(x: Any) -> Any:
+def carry(x: jax.Array) -> jax.Array:
     """The same numbers with digits of at most 2^26 + 2^10, int64; the highest takes what comes to it.
 
     From digits below 2^63 in magnitude the first round leaves 2^26 + 2^36, the second 2^26 + 2^10.
     """
     for _ in range(2):
-        over = (x[:-1] + HALF) >> BITS
-        keep = jnp.concatenate([x[:-1] - (over << BITS), x[-1:]])
+        over = (x[:-1] + HALF_DIGIT) >> DIGIT_BITS
+        keep = jnp.concatenate([x[:-1] - (over << DIGIT_BITS), x[-1:]])
         x = keep + jnp.concatenate([jnp.zeros_like(x[:1]), over])
     return x
 
 
-def sign(x: Any) -> Any:
+def sign(x: jax.Array) -> jax.Array:
     """-1, 0 or 1 of carried numbers (L, ...), int32 (...).
 
     All digits below the highest that is not zero are less than 2^27 - 1, and add up to less than it.

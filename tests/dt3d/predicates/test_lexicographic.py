@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from dt3d.ordering.lexicographic import before, equal
+from dt3d.predicates.lexicographic import before, equal
 
 
 @pytest.mark.parametrize("d", [2, 3])

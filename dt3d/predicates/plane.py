@@ -1,0 +1,190 @@
+r"""Orientation and in-circle in the plane, and which perturbed site is inside a circle: exact signs.
+
+Sign conventions, as drawn::
+
+          c          orient2d(a, b, c) = +1: a turn to the left. It is 0 where the three are collinear, and -1
+         / \         for a turn to the right.
+        /   \
+       a-----b       in_circle(a, b, c, d) = +1 where d is inside the circle through a positive a, b, c;
+                     0 where it is on the circle, -1 outside.
+
+Points are rows of an array (n, 2). The stages are those of `space`, but what the filter leaves open is not
+inlined.
+
+The bounds. Let u = 2^-53, X, Y the largest absolute differences of coordinates, M the larger of them. What
+under- and overflow can do is the slack of the workspace. In pairs of doubles differences are exact and each
+rounding is at most 5 u^2.
+
+* orientation: 2 monomials XY, rounded in doubles twice in differences, once in the product, once in the sum:
+  error <= 2 XY ((1+u)^4 - 1) < 8.1 u XY. In pairs once in the product, once in the sum: 2 * 10 u^2 XY.
+* in-circle: 3 x 2 monomials XY times a lift of at most 2 M^2. In doubles rounded 4 times in differences (two,
+  and two in the lift), 2 in a minor, 2 in the lift's square and sum, once in their product, 2 in the last
+  sums: error <= 12 XY M^2 ((1+u)^11 - 1) < 132.1 u XY M^2. In pairs twice in a minor, twice in a lift, once
+  in their product, twice in sums: 12 * 35 u^2 XY M^2.
+
+Contraction to fused multiply-add leaves out roundings and adds none, so all hold with it.
+"""
+
+from __future__ import annotations
+
+from numba.extending import intrinsic
+
+from .._numba.kernel_cache import cached_njit
+from .._numba.noinline import call_noinline
+from . import double_double as dd
+from .big_integers import in_circle_exact, orient2d_exact
+from .lexicographic import before
+from .workspace import NEGLIGIBLE, SLACK_INDEX
+
+ORIENT2D_BOUND = 9.0 * 2.0**-53
+IN_CIRCLE_BOUND = 134.0 * 2.0**-53
+ORIENT2D_BOUND_OF_PAIRS = 21.0 * 2.0**-106
+IN_CIRCLE_BOUND_OF_PAIRS = 430.0 * 2.0**-106
+
+# As in `space`: 2 N^2 or 12 N^4 are less than 2^53, twice 21 N^2 or 430 N^4 less than 2^106.
+ORIENT2D_STEPS = 25, 49
+IN_CIRCLE_STEPS = 12, 23
+
+
+@cached_njit
+def orient2d(points, a, b, c, w):
+    """Sign of det[b-a, c-a] of three rows of ``points``."""
+    bx, by = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1]
+    cx, cy = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1]
+    det = bx * cy - cx * by
+    x, y = max(abs(bx), abs(cx)), max(abs(by), abs(cy))
+    bound = ORIENT2D_BOUND * (x * y) + w[SLACK_INDEX]
+    # one branch that is nearly always taken, and no other on the sign, which nobody can predict
+    if abs(det) > bound:
+        return 1 if det > 0.0 else -1
+    return _call_orient2d_open(points, (a, b, c), det, (x, y), w)
+
+
+@cached_njit
+def _orient2d_open(points, rows, det, extents, w):
+    """Sign of the determinant that the filter leaves open; its rounded value and X, Y are given."""
+    x, y = extents
+    if x == 0.0 or y == 0.0:
+        return 0
+    a, b, c = rows
+    p, q = _difference(points, b, a), _difference(points, c, a)
+    m = max(x, y)
+    discrete = w[SLACK_INDEX] < NEGLIGIBLE * m * m
+    if discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[0]):
+        return (det > 0.0) - (det < 0.0)
+    value = dd.minor(p, q)[0]
+    bound = ORIENT2D_BOUND_OF_PAIRS * (x * y) + w[SLACK_INDEX]
+    if value > bound:
+        return 1
+    if value < -bound:
+        return -1
+    if discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[1]):
+        return 0
+    return orient2d_exact(points, a, b, c, w)
+
+
+@intrinsic
+def _call_orient2d_open(typingctx, points, rows, det, extents, w):
+    return call_noinline(typingctx, _orient2d_open, (points, rows, det, extents, w))
+
+
+@cached_njit
+def _difference(points, p, q):
+    """Point p minus point q, as two pairs; exact."""
+    return dd.two_sum(points[p, 0], -points[q, 0]), dd.two_sum(points[p, 1], -points[q, 1])
+
+
+@cached_njit
+def in_circle(points, a, b, c, d, w):
+    """1 inside, -1 outside, 0 on the circumcircle of the positive triangle abc; rows of ``points``."""
+    x, y = points[d, 0], points[d, 1]
+    ax, ay = points[a, 0] - x, points[a, 1] - y
+    bx, by = points[b, 0] - x, points[b, 1] - y
+    cx, cy = points[c, 0] - x, points[c, 1] - y
+    a_lift, b_lift, c_lift = ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy
+    det = a_lift * (bx * cy - cx * by) + b_lift * (cx * ay - ax * cy) + c_lift * (ax * by - bx * ay)
+    x = max(abs(ax), abs(bx), abs(cx))
+    y = max(abs(ay), abs(by), abs(cy))
+    m = max(x, y)
+    bound = IN_CIRCLE_BOUND * (x * y * (m * m)) + w[SLACK_INDEX]
+    if abs(det) > bound:
+        return 1 if det > 0.0 else -1
+    return _call_in_circle_open(points, (a, b, c, d), det, (x, y), w)
+
+
+@cached_njit
+def _in_circle_open(points, rows, det, extents, w):
+    """Sign of the determinant that the filter leaves open; its rounded value and X, Y are given."""
+    x, y = extents
+    a, b, c, d = rows
+    p, q, r = _difference(points, a, d), _difference(points, b, d), _difference(points, c, d)
+    m = max(x, y)
+    discrete = w[SLACK_INDEX] < NEGLIGIBLE * (m * m) * (m * m)
+    if discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[0]):
+        return (det > 0.0) - (det < 0.0)
+    total = dd.add(dd.multiply(dd.square(p), dd.minor(q, r)), dd.multiply(dd.square(q), dd.minor(r, p)))
+    value = dd.add(total, dd.multiply(dd.square(r), dd.minor(p, q)))[0]
+    bound = IN_CIRCLE_BOUND_OF_PAIRS * (x * y * (m * m)) + w[SLACK_INDEX]
+    if value > bound:
+        return 1
+    if value < -bound:
+        return -1
+    if discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[1]):
+        return 0
+    return in_circle_exact(points, a, b, c, d, w)
+
+
+@intrinsic
+def _call_in_circle_open(typingctx, points, rows, det, extents, w):
+    return call_noinline(typingctx, _in_circle_open, (points, rows, det, extents, w))
+
+
+@cached_njit(forceinline=True)
+def inside(points, v, site, w):
+    """Whether a site is inside the perturbed circumcircle of the positive triangle v, three sites."""
+    sign = in_circle(points, v[0], v[1], v[2], site, w)
+    return sign > 0 if sign != 0 else _call_inside_tied(points, v, site, w)
+
+
+@cached_njit
+def _inside_tied(points, v, site, w):
+    """The perturbed in-circle test of a site on the circumcircle of triangle v, a tuple of three sites.
+
+    Heights are as in `space`. Of the four in lexicographic order the first whose coefficient is not zero
+    decides. A site on the circle is on no line through two vertices, so that is the first of all. Coordinates
+    are compared, since ranks would cost a sort of all sites.
+    """
+    a, b, c = v
+    first, k = site, 3
+    if before(points, a, first):
+        first, k = a, 0
+    if before(points, b, first):
+        first, k = b, 1
+    if before(points, c, first):
+        first, k = c, 2
+    if k == 3:
+        return False
+    if k == 0:
+        return orient2d(points, site, b, c, w) > 0
+    if k == 1:
+        return orient2d(points, a, site, c, w) > 0
+    return orient2d(points, a, b, site, w) > 0
+
+
+@intrinsic
+def _call_inside_tied(typingctx, points, v, site, w):
+    return call_noinline(typingctx, _inside_tied, (points, v, site, w))
+
+
+@cached_njit
+def orient2d_of_cases(cases, w, out):
+    """Write the signs of cases float64 (m, 3, 2)."""
+    for i in range(len(out)):
+        out[i] = orient2d(cases[i], 0, 1, 2, w)
+
+
+@cached_njit
+def in_circle_of_cases(cases, w, out):
+    """Write the signs of cases float64 (m, 4, 2)."""
+    for i in range(len(out)):
+        out[i] = in_circle(cases[i], 0, 1, 2, 3, w)
