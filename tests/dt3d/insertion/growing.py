@@ -1,5 +1,8 @@
 """Triangulations that are still growing, for tests of a single step."""
 
+import threading
+import time
+
 import numpy as np
 
 from dt3d._first_tetrahedron import first_tetrahedron
@@ -48,3 +51,11 @@ def check_links(team):
             u, j = divmod(int(across[t, k]), 4)
             assert across[u, j] == 4 * t + k
             assert sorted(np.delete(corners[t], k)) == sorted(np.delete(corners[u], j))
+
+
+def no_thread_is_left():
+    """Whether all threads but this one end; the last steps of a thread come after what it says at its end."""
+    deadline = time.monotonic() + 5
+    while threading.active_count() > 1 and time.monotonic() < deadline:
+        time.sleep(0.001)
+    return threading.active_count() == 1

@@ -3,8 +3,6 @@
 No input leads there, so the tests break the triangulation on purpose, between two calls of the compiled code.
 """
 
-import threading
-
 import numpy as np
 import pytest
 
@@ -14,6 +12,7 @@ from dt3d.insertion.mesh import FREE, neighbors, squared_radii, vertices
 from dt3d.insertion.worker import State
 
 from ..families import grid
+from .growing import no_thread_is_left
 
 POINTS = np.random.default_rng(0).random((600, 3))
 
@@ -67,7 +66,7 @@ def test_a_walk_in_circles_of_one_thread_ends_all(broken, monkeypatch):
     broken(in_circles, calls=6)
     with pytest.raises(dt3d.InternalError, match="please report"):
         dt3d.Delaunay(POINTS, threads=4)
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
 
 
 def test_a_lost_walk_to_where_a_thread_begins(monkeypatch):
@@ -76,7 +75,7 @@ def test_a_lost_walk_to_where_a_thread_begins(monkeypatch):
     monkeypatch.setattr(team, "locate", lambda *arguments: -1)
     with pytest.raises(dt3d.InternalError, match="a walk to a site"):
         dt3d.Delaunay(POINTS, threads=2)
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -87,7 +86,7 @@ def test_a_copy_that_was_missed_is_not_inserted_without_a_word(threads, monkeypa
     for points in (POINTS, grid(6), np.ldexp(POINTS, -900)):
         with pytest.raises(dt3d.InternalError, match="a site is where another one is already"):
             dt3d.Delaunay(np.concatenate([points, points[100:101]]), threads=threads)
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
 
 
 def test_a_cavity_of_all_tetrahedra_has_no_rim(broken):
