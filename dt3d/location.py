@@ -72,8 +72,10 @@ def _search(cells, q, w):
 
 @cached_njit(nogil=True)
 def _find(cells, t, q, points, order, out, w):
-    """Locate points[order] by walks from t on, each copied to row q; where the last walk ended, or `LOST`
-    where the first one was."""
+    """Locate points[order] by walks from t on, each point copied to row q.
+
+    Returns where the last walk ended, or `LOST` where a walk did not.
+    """
     cells, w = unowned(cells), unowned(w)
     for i in order:
         cells.rows[q] = points[i]
@@ -158,6 +160,7 @@ class Locator:
         found : int32 (k,)
             A simplex that contains each.
         kept : bool (m,)
+            Which simplices are kept.
 
         Returns
         -------

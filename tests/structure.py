@@ -14,6 +14,7 @@ PACKAGES = ("scanvec", "dt3d")
 
 # decorators whose functions numba compiles or calls while it compiles
 COMPILED = {
+    "accessor",
     "cached_njit",
     "njit",
     "jit",

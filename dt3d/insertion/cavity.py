@@ -30,12 +30,11 @@ NOT_OWNED, NO_ROOM = -1, -2  # in place of a number of facets
 
 @cached_njit(inline="always", error_model="numpy")
 def search(mesh, start, site, part, scratch, w):
-    """The tetrahedra in conflict with a site, from ``start`` on, and the facets around them; the numbers of
-    both.
+    """Find the tetrahedra in conflict with a site, from ``start`` on, and the facets around them.
 
-    Those in ``scratch.cavity`` are marked. The number of facets is `NOT_OWNED` where the cavity has
-    tetrahedra that the thread does not own, `NO_ROOM` where there is no room for more. Also returns how many
-    were tested.
+    Returns the number of tetrahedra, which are marked; of facets; and of tetrahedra that were tested. The
+    number of facets is `NOT_OWNED` where the cavity has tetrahedra that the thread does not own, `NO_ROOM`
+    where there is no room for more.
     """
     cavity, rim, outer = scratch.cavity, scratch.rim, scratch.outer
     whole = part.length == part.sites
@@ -80,7 +79,7 @@ def search(mesh, start, site, part, scratch, w):
 
 
 @cached_njit(inline="always", error_model="numpy")
-def give_up(mesh, cavity, size):
+def unmark_cavity(mesh, cavity, size):
     """Unmark what was found."""
     for i in range(size):
         unmark(mesh, numba.int64(cavity[i]))

@@ -31,8 +31,7 @@ def number_finite(mesh, begin, end, first, number):
 
 @cached_njit(nogil=True)
 def write_finite(mesh, begin, end, number, original, simplices, neighbors):
-    """Rows of the result: vertices by their indices in the input, neighbours by number, -1 beyond the
-    hull."""
+    """Write rows of the result: vertices as indices of the input, neighbours by number, -1 outside."""
     mesh = unowned(mesh)
     for t in range(begin, end):
         s = number[t]

@@ -125,8 +125,7 @@ def _told(report: Callable[[int, int], None] | None, n: int) -> Callable[[int, i
 def _in_order(
     sites: npt.NDArray[np.float64], threads: int
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64], npt.NDArray[np.int32]]:
-    """Distinct sites along the curve: their indices int32 (n,), their rows float64 (4 n,); and the copies,
-    int32 (k, 2)."""
+    """Distinct sites along the curve: their indices (n,) and rows (4 n,); and the copies (k, 2)."""
     by_all = partial(in_chunks, threads)
     order = along_curve_in_space(sites, by_all)
     original = order.astype(np.int32)

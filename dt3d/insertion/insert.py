@@ -16,7 +16,7 @@ import numba
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
-from .cavity import NO_ROOM, give_up, search
+from .cavity import NO_ROOM, search, unmark_cavity
 from .mesh import INFINITE, site_at_hand, vertex
 from .ownership import Part
 from .spheres import flat, round_spheres
@@ -37,12 +37,11 @@ FAULTS = {
 
 @cached_njit(nogil=True, error_model="numpy")
 def insert(mesh, todo, state, scratch, scale, w):
-    """Insert the sites todo[state[State.NEXT]], ... before state[State.STOP] that the thread can; see
-    `ownership`.
+    """Insert the sites of ``todo`` from `State.NEXT` to before `State.STOP`, as far as ownership allows.
 
-    Those that it cannot go to the front of ``todo``, state[State.DEFERRED] of them. Returns `DONE`, or what
-    is short; then nothing is half done: supply it and call again. Or one of `FAULTS`, when the tetrahedra are
-    of no more use.
+    The others go to the front of ``todo``, `State.DEFERRED` of them. Returns `DONE`, or what is missing; then
+    no site is half inserted: supply it and call again. Or one of `FAULTS`, when the tetrahedra are of no more
+    use.
     """
     mesh, todo, state = unowned(mesh), unowned(todo), unowned(state)
     scratch, w = unowned(scratch), unowned(w)
@@ -74,10 +73,10 @@ def insert(mesh, todo, state, scratch, scale, w):
             tested += tests
         if facets == NO_ROOM:
             result = NEEDS_SCRATCH
-        elif facets > size + free.count + (free.fresh_end - free.fresh):
+        elif facets > size + free.listed + (free.fresh_end - free.fresh):
             result = NEEDS_SLOTS
         if facets < 0 or result != DONE:
-            give_up(mesh, scratch.cavity, size)
+            unmark_cavity(mesh, scratch.cavity, size)
             if result != DONE:
                 break
             todo[deferred] = site.v
@@ -102,7 +101,7 @@ def insert(mesh, todo, state, scratch, scale, w):
         last = numba.int64(scratch.slots[0])
         created += facets
         following += 1
-    state[State.FREE], state[State.FREE_COUNT], state[State.FRESH] = free.first, free.count, free.fresh
+    state[State.FREE], state[State.FREE_COUNT], state[State.FRESH] = free.first, free.listed, free.fresh
     state[State.NEXT], state[State.DEFERRED], state[State.LAST] = following, deferred, last
     state[State.WALKED] += walked
     state[State.TESTED] += tested

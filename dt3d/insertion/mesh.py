@@ -124,11 +124,13 @@ def neighbor(mesh, t, k):
 
 @accessor
 def set_vertex(mesh, t, k, v):
+    """Make v the k-th vertex of tetrahedron t."""
     mesh.tetrahedra[8 * t + k] = v
 
 
 @accessor
 def set_neighbor(mesh, t, k, facet):
+    """Note the facet beyond the k-th facet of tetrahedron t."""
     mesh.tetrahedra[8 * t + 4 + k] = facet
 
 
@@ -167,6 +169,7 @@ def prefetch_sphere(mesh, t):
 
 @accessor
 def set_center(mesh, t, x, y, z):
+    """Store the centre of the sphere of t."""
     mesh.spheres[4 * t], mesh.spheres[4 * t + 1], mesh.spheres[4 * t + 2] = x, y, z
 
 
@@ -193,6 +196,7 @@ def radius_above(mesh, t):
 
 @accessor
 def set_radius(mesh, t, below, above):
+    """Store the squared radius of the sphere of t, rounded down and up; t is not in the cavity."""
     mesh.radii[8 * t + 6], mesh.radii[8 * t + 7] = below, above
 
 
@@ -228,6 +232,7 @@ def label(mesh, v):
 
 @accessor
 def set_label(mesh, v, number):
+    """Give site v a number in a star."""
     mesh.labels[8 * v + 6] = number
 
 
@@ -239,4 +244,5 @@ def tetrahedron_of(mesh, v):
 
 @accessor
 def set_tetrahedron_of(mesh, v, t):
+    """Note that site v is a vertex of tetrahedron t."""
     mesh.labels[8 * v + 7] = t + 1

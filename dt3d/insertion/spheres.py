@@ -49,8 +49,7 @@ RADIUS_MARGIN = 2.0**-21
 
 @cached_njit(error_model="numpy", inline="always")
 def round_spheres(mesh, site, scratch, facets, reach):
-    """Store the spheres of the tetrahedra to the first ``facets`` facets; returns for how many nothing is
-    proved."""
+    """Store the spheres of the tetrahedra of a star; returns for how many nothing is proved."""
     p, q, r, slots = scratch.p, scratch.q, scratch.r, scratch.slots
     x, y, z, squared = scratch.x, scratch.y, scratch.z, scratch.squared
     unproved = 0

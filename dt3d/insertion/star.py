@@ -1,5 +1,4 @@
-"""The star of a new site: a tetrahedron to every facet of the cavity, each in its place among the
-others."""
+"""The star of a new site: a tetrahedron at every facet of the cavity, linked with those beside it."""
 
 from __future__ import annotations
 
@@ -64,14 +63,14 @@ def make_tetrahedra(mesh, v, scratch, size, facets, free):
     fresh ones. Returns the list without what was used, and with what the cavity left.
     """
     cavity, vertices, p, q, r = scratch.cavity, scratch.vertices, scratch.p, scratch.q, scratch.r
-    first, count, fresh = free.first, free.count, free.fresh
+    first, listed, fresh = free.first, free.listed, free.fresh
     for f in range(facets):
         if f < size:
             t = numba.int64(cavity[f])
-        elif count > 0:
+        elif listed > 0:
             t = first
             first = next_free(mesh, t)
-            count -= 1
+            listed -= 1
         else:
             t = fresh
             fresh += 1
@@ -87,8 +86,8 @@ def make_tetrahedra(mesh, v, scratch, size, facets, free):
         t = numba.int64(cavity[f])
         free_slot(mesh, t, first)
         first = t
-        count += 1
-    return FreeSlots(first, count, fresh, free.fresh_end)
+        listed += 1
+    return FreeSlots(first, listed, fresh, free.fresh_end)
 
 
 @cached_njit(inline="always", error_model="numpy")

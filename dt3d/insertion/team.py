@@ -132,8 +132,10 @@ class Team:
         return np.sort(np.concatenate([worker.left for worker in workers]))
 
     def _start_within(self, worker: Worker, start: int) -> int:
-        """Let a worker begin at a tetrahedron that it may read, if a few sites have one; where the walk
-        ended."""
+        """Choose where a worker begins, at a tetrahedron that it may read if one of a few sites has such.
+
+        Each walk begins where the one before ended; returns where the last one did.
+        """
         first, length = worker.state[State.FIRST], worker.state[State.LENGTH]
         for fraction in (2, 4, 8):
             site = int(worker.todo[len(worker.todo) // fraction])

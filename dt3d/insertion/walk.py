@@ -1,5 +1,8 @@
-"""The walk to a site: through any facet that has the site on its other side (O. Devillers, S. Pion, M.
-Teillaud: Walking in a triangulation, International Journal of Foundations of Computer Science 13, 2002)."""
+"""The walk to a site: through any facet that has the site on its other side.
+
+O. Devillers, S. Pion, M. Teillaud: Walking in a triangulation, International Journal of Foundations of
+Computer Science 13, 2002.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,13 @@ NEARBY = 16  # sites on either side on the curve, from one of which a walk that 
 
 @cached_njit(inline="always", error_model="numpy")
 def walk(mesh, t, site, part, slack, w):
-    """From t to the tetrahedron that contains a site, or a ghost whose facet it is beyond.
+    """Walk from t to the tetrahedron that contains a site, or to a ghost beyond whose facet it is.
 
-    ``slack`` is a bound of what underflow can do to a determinant.
+    Returns where the walk ended; whether it got there, or stopped where every way on leaves what the thread
+    may read; and the number of steps, -1 where it went on as no walk does. ``slack`` is a bound of what
+    underflow can do to a determinant.
 
-    Also whether it got there, or stopped where every way on leaves what the thread may read; and the steps.
-    -1 steps: it went on where no walk does. Each step goes to a tetrahedron of whose sphere, perturbed, the
+    Each step goes to a tetrahedron of whose sphere, perturbed, the
     site has a lesser power (H. Edelsbrunner: An acyclicity theorem for cell complexes in d dimensions,
     Combinatorica 10, 1990), so none is visited twice, and steps are fewer than the slots.
     """
@@ -87,8 +91,10 @@ def nearby_start(mesh, v, part):
 
 @cached_njit(nogil=True, error_model="numpy")
 def locate(mesh, t, v, slack, w):
-    """The tetrahedron that contains site v, or a ghost; for when no thread inserts. -1 if the walk does not
-    end."""
+    """The tetrahedron that contains site v, or a ghost; -1 if the walk does not end.
+
+    Only while no thread inserts.
+    """
     mesh, w = unowned(mesh), unowned(w)
     t, found, _ = walk(mesh, t, site_at_hand(mesh, v), Part(0, 1, 1), slack, w)
     return t if found else -1

@@ -36,20 +36,19 @@ class State(IntEnum):
 
 
 class FreeSlots(NamedTuple):
-    """The first of ``count`` free slots in a list, and a block of slots that nobody has used."""
+    """The first of the ``listed`` free slots in a list, and a block of slots that nobody has used."""
 
     first: int
-    count: int
+    listed: int
     fresh: int
     fresh_end: int
 
 
 class Scale(NamedTuple):
-    """What is known of the magnitude of coordinates: what underflow can do to a determinant, and a bound of
-    them."""
+    """What is known of the magnitude of the coordinates."""
 
-    slack: float
-    reach: float
+    slack: float  # a bound of what underflow can do to a determinant
+    reach: float  # a bound of the coordinates
 
 
 class Scratch(NamedTuple):
@@ -141,8 +140,10 @@ class Worker:
         return int(self.state[State.FREE_COUNT] + self.state[State.FRESH_END] - self.state[State.FRESH])
 
     def take_slots(self, store: Store) -> bool:
-        """A new block; what was left of the last one is given up where it does not adjoin. Whether there
-        was one."""
+        """Take a block of slots; whether there was one.
+
+        What was left of the last block is put on the list of free slots where the new one does not adjoin.
+        """
         begin, end = store.take_block()
         if begin == self.state[State.FRESH_END]:
             self.state[State.FRESH_END] = end

@@ -10,6 +10,7 @@ import dt3d
 from dt3d.insertion import driver, team
 
 from ..families import grid, on_sphere, tetrahedra
+from .growing import no_thread_is_left
 
 
 def with_copies(n):
@@ -66,7 +67,17 @@ def assert_one_answer(points, runs):
         deferred += tri.stats.deferred
     assert deferred > 0
     assert tri.verify(), tri.verify()
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("n", [0, 5, 100])
+def test_chunks_are_all_of_a_range(n, threads, monkeypatch):
+    monkeypatch.setattr(team, "ROWS_PER_CHUNK", 7)
+    chunks = []
+    team.in_chunks(threads, lambda begin, end: chunks.append(range(begin, end)), n)
+    assert sorted(i for chunk in chunks for i in chunk) == list(range(n))
+    assert len(chunks) == (1 if threads == 1 or n < 14 else -(-n // 7))
 
 
 @sets(*SETS)
@@ -111,7 +122,7 @@ def test_what_a_callback_raises_ends_all_threads(error, yielding, monkeypatch):
 
     with pytest.raises(error):
         dt3d.Delaunay(SETS["uniform"], threads=4, callback=stop)
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
 
 
 def test_what_one_thread_raises_ends_the_others(yielding, monkeypatch):
@@ -128,7 +139,7 @@ def test_what_one_thread_raises_ends_the_others(yielding, monkeypatch):
     with pytest.raises(MemoryError):
         dt3d.Delaunay(SETS["uniform"], threads=4)
     assert calls[59] is not threading.main_thread()
-    assert threading.active_count() == 1
+    assert no_thread_is_left()
 
 
 def test_progress_of_threads(yielding, monkeypatch):

@@ -36,3 +36,15 @@ def test_statistics_and_phases():
     assert tri.stats.created < tri.stats.tested
     assert list(tri.stats.seconds) == ["order", "insertion", "compaction", "total"]
     assert (tri.iteration == 1).all()
+
+
+def test_reports_are_far_apart_and_end_at_the_end(monkeypatch):
+    monkeypatch.setattr(driver, "SITES_PER_REPORT", 100)
+    left = []
+    driver.triangulate(
+        np.random.default_rng(0).random((5000, 3)), 0, 1, lambda sites, slots: left.append(sites)
+    )
+    assert left[-1] == 0
+    assert left == sorted(left, reverse=True)
+    assert len(set(left)) == len(left) > 3
+    assert (-np.diff(left[:-1]) >= 100).all()
