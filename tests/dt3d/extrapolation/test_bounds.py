@@ -12,9 +12,9 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import cell_requests, dictionary, loop
+from dt3d.extrapolation import cell_requests, consistency, dictionary
 from dt3d.extrapolation.buckets import bucket
-from dt3d.extrapolation.compiled import facets, mesh
+from dt3d.extrapolation.compiled import facet_table, mesh
 from dt3d.extrapolation.gift_wrapping import NEAREST, Start
 from dt3d.extrapolation.outcome import Outcome
 from dt3d.extrapolation.points import Point
@@ -42,28 +42,28 @@ def test_a_full_table_of_facets_is_not_searched_for_ever():
     facet = tuple(jnp.full(20, v, jnp.int32) for v in (500, 501, 502))
     half, every = 4 * jnp.arange(20, dtype=jnp.int32) + 3, jnp.ones(20, bool)
     with jax.enable_x64(True):
-        look_up, insert = jax.jit(facets.look_up), jax.jit(facets.insert)
+        look_up, insert = jax.jit(facet_table.look_up), jax.jit(facet_table.insert)
         full, slot = jnp.zeros(64, jnp.int32), jnp.full(20, 40, jnp.int32)
         assert int(look_up(full, corners, facet, every)[2]) == 20
         assert int(insert(full, corners, facet, half, slot, every)[2]) == 20
-        one_is_free = full.at[40].set(facets.EMPTY)  # which is enough for one facet
+        one_is_free = full.at[40].set(dictionary.EMPTY_SLOT)  # which is enough for one facet
         assert int(look_up(one_is_free, corners, facet, every)[2]) == 0
         _, found, unplaced = insert(one_is_free, corners, facet, half, slot, every)
-        assert found.tolist() == [facets.ABSENT, *[3] * 19]
+        assert found.tolist() == [dictionary.ABSENT, *[3] * 19]
         assert int(unplaced) == 0
 
 
 def test_more_facets_than_the_table_has_slots(monkeypatch):
     tetrahedra = np.arange(160, dtype=np.int32).reshape(40, 4)
     with jax.enable_x64(True):
-        mesh.planted(tetrahedra, 64, 32)
+        mesh.begun_with(tetrahedra, 64, 32)
         monkeypatch.setattr(mesh, "SLOTS_PER_TETRAHEDRON", 1)
         with pytest.raises(dt3d.InternalError, match="96 facets have looked at all 64 slots"):
-            mesh.planted(tetrahedra, 64, 32)
+            mesh.begun_with(tetrahedra, 64, 32)
 
 
 def nearest(sites, **functions):
-    """Buckets, queries for the sites nearest to all, and the question with some functions changed."""
+    """Buckets, queries for the sites nearest to all, and the spec with some functions changed."""
     points = Point(*(MACHINE.vector(np.ascontiguousarray(x)) for x in sites.T))
     buckets = bucket(points)
     queries = Start(buckets.sites, MACHINE.iota(len(sites)))
@@ -72,27 +72,27 @@ def nearest(sites, **functions):
 
 def test_a_tree_search_with_bounds_that_are_no_numbers():
     sites = np.random.default_rng(0).random((60, 3))
-    buckets, queries, question = nearest(sites, trial=lambda query, k: jnp.full_like(query.a.x, jnp.nan))
+    buckets, queries, spec = nearest(sites, trial_bound=lambda query, k: jnp.full_like(query.a.x, jnp.nan))
     assert len(tree_search.search(buckets, queries, NEAREST).best.site) == 60
     with pytest.raises(dt3d.InternalError, match="60 of 60 searches in a tree do not end"):
-        tree_search.search(buckets, queries, question)
+        tree_search.search(buckets, queries, spec)
 
 
 def test_a_cell_search_whose_boxes_do_not_grow(monkeypatch):
     sites = np.random.default_rng(0).random((200, 3))
-    buckets, queries, question = nearest(sites, homes=lambda query: (query.site,))
-    monkeypatch.setattr(cell_requests, "TURNS_BETWEEN_LOOKS", 4)
+    buckets, queries, spec = nearest(sites, start_sites=lambda query: (query.site,))
+    monkeypatch.setattr(cell_requests, "ROUNDS_BETWEEN_CHECKS", 4)
     first = queries.a, queries.a
     assert len(cell_requests.search(buckets, queries, first, NEAREST).best.site) == 200
     monkeypatch.setattr(cell_requests, "contains", lambda outer, inner: jnp.zeros_like(outer.x0, bool))
     with pytest.raises(dt3d.InternalError, match="a search through cells has taken .* rounds"):
-        cell_requests.search(buckets, queries, first, question)
+        cell_requests.search(buckets, queries, first, spec)
 
 
 def test_more_tetrahedra_than_any_triangulation_has():
-    nothing = Outcome(np.empty((0, 4), np.int32), np.empty((0, 4), np.int32), np.empty(0, np.int32))
-    loop._give_up_if_hopeless(nothing, 50, 10, True)
+    consistency.check_progress(Outcome(per_iteration=[50]), 10, True)
+    too_many = Outcome(per_iteration=[50, 1])
     with pytest.raises(dt3d.InternalError, match="51 tetrahedra of 10 sites were found"):
-        loop._give_up_if_hopeless(nothing, 51, 10, True)
+        consistency.check_progress(too_many, 10, True)
     with pytest.raises(dt3d.InconsistencyError, match="Use method='insertion'"):
-        loop._give_up_if_hopeless(nothing, 51, 10, False)
+        consistency.check_progress(too_many, 10, False)

@@ -10,17 +10,13 @@ from hypothesis import given
 import scanvec as sv
 from dt3d.extrapolation import dictionary
 from dt3d.extrapolation.dead_faces import (
-    Tetrahedron,
-    bury,
-    bury_boundary,
     distinct,
-    face_key,
-    face_of,
+    insert_boundary_faces,
+    insert_dead_faces,
     no_dead_faces,
     open_faces,
-    opposite,
 )
-from dt3d.extrapolation.expansion import Face
+from dt3d.extrapolation.faces import Face, Tetrahedron, face_key, face_of, opposite
 
 MACHINES = (sv.Device(), sv.Simulated(processors=3))
 keys = st.lists(st.tuples(*[st.integers(-3, 3)] * 2), max_size=40)
@@ -57,10 +53,12 @@ def test_the_table_grows_and_forgets_nothing():
 
 
 def test_keys_that_share_a_slot_find_others(monkeypatch):
-    monkeypatch.setattr(dictionary, "_hash", lambda key: key[0].astype("uint32") * 0 + 1023)  # and wrap round
+    monkeypatch.setattr(
+        dictionary, "hash32", lambda key: key[0].astype("uint32") * 0 + 1023
+    )  # and wrap round
 
     def first_probe(index, key, slots):
-        slot = dictionary._hash(key) & (slots - 1)
+        slot = dictionary.hash32(key) & (slots - 1)
         return dictionary._Probe(index, key, slot.astype("int32"))
 
     monkeypatch.setattr(dictionary, "_first_probe", first_probe)  # not the kernel compiled with the real hash
@@ -106,21 +104,23 @@ def test_each_tetrahedron_is_kept_once():
 def test_of_two_tetrahedra_on_one_side_of_a_face_the_first_stays(machine):
     dead = no_dead_faces(machine)
     # the second has the first's face (0, 1, 2) with its own fourth vertex on the same side
-    dead, kept, lost = bury(dead, tetrahedra(machine, [[0, 1, 2, 3], [0, 1, 2, 4], [5, 6, 7, 8]]), 0)
+    dead, kept, lost = insert_dead_faces(
+        dead, tetrahedra(machine, [[0, 1, 2, 3], [0, 1, 2, 4], [5, 6, 7, 8]]), 0
+    )
     assert as_rows(kept) == [[0, 1, 2, 3], [5, 6, 7, 8]]
     assert lost == 1
     # also against an earlier batch; a neighbour on the other side is no contradiction
-    dead, kept, lost = bury(dead, tetrahedra(machine, [[2, 0, 1, 9], [1, 0, 2, 9]]), 2)
+    dead, kept, lost = insert_dead_faces(dead, tetrahedra(machine, [[2, 0, 1, 9], [1, 0, 2, 9]]), 2)
     assert as_rows(kept) == [[1, 0, 2, 9]]
     assert lost == 1
-    dead, lost = bury_boundary(dead, Face(*vectors(machine, [[0, 1, 2], [30, 31, 32]], 3)))
+    dead, lost = insert_boundary_faces(dead, Face(*vectors(machine, [[0, 1, 2], [30, 31, 32]], 3)))
     assert lost == 1
 
 
 def test_outward_faces_are_open_unless_dead():
     machine = MACHINES[0]
     both = tetrahedra(machine, [[0, 1, 2, 3], [1, 0, 2, 9]])  # they share the face 0 1 2
-    dead, kept, _ = bury(no_dead_faces(machine), both, 0)
+    dead, kept, _ = insert_dead_faces(no_dead_faces(machine), both, 0)
     opened = {frozenset(f) for f in as_rows(open_faces(dead, kept))}
     assert opened == {
         frozenset(f) for f in [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 2, 9), (1, 2, 9), (0, 1, 9)]

@@ -9,10 +9,10 @@ from dt3d._input import exactly_scaled
 from dt3d.extrapolation import loop
 from dt3d.extrapolation.buckets import bucket
 from dt3d.extrapolation.exact import decisions
-from dt3d.extrapolation.exact.expansion import FILTERED, open_exact_face
-from dt3d.extrapolation.exact.first_facets import seeds
+from dt3d.extrapolation.exact.expansion import FILTERED, open_face
+from dt3d.extrapolation.exact.first_facets import checked_facets
 from dt3d.extrapolation.exact.sites import ExactSites
-from dt3d.extrapolation.expansion import Face
+from dt3d.extrapolation.faces import Face
 from dt3d.extrapolation.points import Point
 from dt3d.extrapolation.warrants import NO_SITE
 
@@ -68,7 +68,7 @@ def test_bounds_hold_the_signed_distance(name):
     for a, b, c in faces:
         face = Face(*(MACHINE.vector(np.full(n, index[v], np.int32)) for v in (a, b, c)))
         corners = (sv.get(exact.buckets.sites, v) for v in face)
-        query = MACHINE.map(open_exact_face, face, *corners, exact.lattice)
+        query = MACHINE.map(open_face, face, *corners, exact.lattice)
         bounds = MACHINE.map(FILTERED.score, query, exact.buckets.sites, MACHINE.iota(n))
         low, high = (v.to_numpy() for v in bounds)
         others = np.setdiff1d(np.arange(n), [a, b, c])
@@ -115,7 +115,7 @@ def test_sites_too_close_for_floating_point_are_an_error_that_says_so(factor):
 
 
 @pytest.mark.parametrize("name", ["uniform", "lattice", "tenths"])
-def test_wrong_first_facets_are_mended(name, monkeypatch):
+def test_wrong_first_facets_are_repaired(name, monkeypatch):
     """b is right and c the site furthest from both: facets that hardly ever are Delaunay."""
     real = loop.first_facets
     wrong = []
@@ -136,10 +136,10 @@ def test_wrong_first_facets_are_mended(name, monkeypatch):
     np.testing.assert_array_equal(tetrahedra(tri), tetrahedra(dt3d.Delaunay(points)))
 
 
-def test_facets_that_stand_are_delaunay():
+def test_checked_facets_are_delaunay():
     points = lexicographic(SETS["lattice"])
     exact = exact_sites(points)
-    start, counts = seeds(exact, loop._wrapped_facets(exact.buckets))
+    start, counts = checked_facets(exact, loop.initial_facets(exact.buckets))
     origin = exact.buckets.origin.to_numpy()
     faces = origin[np.stack([v.to_numpy() for v in start.faces], axis=1)]
     site = start.site.to_numpy()
@@ -153,7 +153,7 @@ def test_facets_that_stand_are_delaunay():
 def test_decisions_do_not_depend_on_batches(monkeypatch):
     points = lexicographic(SETS["tenths"])
     want = dt3d.Delaunay(points, machine=MACHINE)
-    monkeypatch.setattr("dt3d.extrapolation.tree.MOST_REQUESTS", 64)
+    monkeypatch.setattr("dt3d.extrapolation.tree.boxes.MOST_NODE_REQUESTS", 64)
     got = dt3d.Delaunay(points, machine=MACHINE)
     np.testing.assert_array_equal(got.simplices, want.simplices)
     assert got.stats.exact_decisions == want.stats.exact_decisions > 0

@@ -8,8 +8,9 @@ from dt3d.extrapolation import buckets as buckets_module
 from dt3d.extrapolation import cell_requests
 from dt3d.extrapolation.boxes import cell_of
 from dt3d.extrapolation.buckets import bucket, morton_code
-from dt3d.extrapolation.exact.expansion import FILTERED, open_exact_face
-from dt3d.extrapolation.expansion import Face, expand_perturbed, search_faces
+from dt3d.extrapolation.exact.expansion import FILTERED, open_face
+from dt3d.extrapolation.expansion import expand_perturbed, search_faces
+from dt3d.extrapolation.faces import Face
 from dt3d.extrapolation.gift_wrapping import NEAREST, Start, first_facets, squared_distance_to_box
 from dt3d.extrapolation.points import Point
 from dt3d.extrapolation.search import search
@@ -29,7 +30,7 @@ SETS = {
 @pytest.fixture(params=["cells", "tree"])
 def load(request, monkeypatch):
     """Buckets of points, whose searches go through cells or through a tree."""
-    monkeypatch.setattr(buckets_module, "EVEN", np.inf if request.param == "cells" else 0)
+    monkeypatch.setattr(buckets_module, "EVENNESS", np.inf if request.param == "cells" else 0)
     return lambda points: bucket(Point(*(MACHINE.vector(c.copy()) for c in points.T)))
 
 
@@ -105,8 +106,8 @@ def test_a_descent_finds_every_leaf_that_admits(monkeypatch):
     radius = MACHINE.vector(np.linspace(0.01, 0.5, 50))
     centre = sv.get(sites, MACHINE.iota(50))
     test = tree.entry_test(_ball_meets)
-    for most in (tree.MOST_REQUESTS, 40):
-        monkeypatch.setattr(tree, "MOST_REQUESTS", most)
+    for most in (tree.MOST_NODE_REQUESTS, 40):
+        monkeypatch.setattr(tree, "MOST_NODE_REQUESTS", most)
         batches = list(tree.descend(built, (centre, radius), test))
         query = np.concatenate([b.query.to_numpy() for b in batches])
         leaf = np.concatenate([b.node.to_numpy() for b in batches])
@@ -189,7 +190,7 @@ def test_face_expansion(name, load):
     np.testing.assert_array_equal(answer.best.site.to_numpy(), want)
 
     corners = [sv.get(buckets.sites, v) for v in faces]
-    queries = MACHINE.map(open_exact_face, faces, *corners, False)
+    queries = MACHINE.map(open_face, faces, *corners, False)
     bounded = search_faces(buckets, queries, corners, FILTERED).best
     decided = bounded.second.to_numpy() > bounded.high.to_numpy()
     assert decided.sum() >= np.count_nonzero(np.array(want) != NO_SITE) - 1
@@ -199,7 +200,7 @@ def test_face_expansion(name, load):
 def test_queries_wait_where_memory_is_bounded(monkeypatch):
     buckets = bucket(Point(*(MACHINE.vector(c.copy()) for c in SETS["uniform"].T)))
     free = nearest(buckets)
-    monkeypatch.setattr(cell_requests, "MOST_REQUESTS", 64)
+    monkeypatch.setattr(cell_requests, "MOST_CELL_REQUESTS", 64)
     bounded = nearest(buckets)
     np.testing.assert_array_equal(bounded.best.site.to_numpy(), free.best.site.to_numpy())
     assert bounded.sites_searched == free.sites_searched

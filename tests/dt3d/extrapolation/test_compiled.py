@@ -1,5 +1,6 @@
 """The compiled steps for a device: the same triangulation as insertion's, and as a simulated machine's."""
 
+import jax
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,9 +9,9 @@ from hypothesis import strategies as st
 import dt3d
 import scanvec as sv
 from dt3d._input import exactly_scaled, first_copies
-from dt3d.extrapolation.compiled import loop
+from dt3d.extrapolation.compiled import loop, stages, tables
 from dt3d.extrapolation.compiled.windows import cells_of, grid_of, windows_of
-from dt3d.extrapolation.exact.canonical import canonical
+from dt3d.extrapolation.exact.canonical import canonical, in_canonical_order
 from dt3d.verification import verify
 
 from ..families import LARGE, body_centred, box, grid, jittered, random_integers, tetrahedra
@@ -20,13 +21,12 @@ def random_set(n):
     return np.random.default_rng(n).random((n, 3))
 
 
-def fused(points, **sizes):
+def compiled(points, **sizes):
     """What the compiled steps alone make of a set, as the public class would have it, and the run."""
     used, _ = first_copies(points)
-    with loop.jax.enable_x64(True):
-        run = loop.Triangulation(sv.Device(), exactly_scaled(points[used]), **sizes)
-        run.run(None)
-        found = run.result().in_canonical_order()
+    with jax.enable_x64(True):
+        run = loop.Loop(sv.Device(), exactly_scaled(points[used]), **sizes)
+        found = in_canonical_order(run.run(None))
     found.simplices = used[found.simplices].astype(np.int32)
     return found, run
 
@@ -75,13 +75,13 @@ TIED = {
     "name", ["grid", *(pytest.param(name, marks=pytest.mark.slow) for name in list(TIED)[1:])]
 )
 def test_sets_with_ties(name):
-    found, run = fused(TIED[name])
+    found, run = compiled(TIED[name])
     assert_equal_to_insertion(TIED[name], found)
-    assert run.exact_decisions > 0
+    assert found.counts.exact_decisions > 0
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [n for n, p in LARGE.items() if len(p) > loop.FEWEST_SITES])
+@pytest.mark.parametrize("name", [n for n, p in LARGE.items() if len(p) > tables.FEWEST_SITES])
 def test_large_families(name):
     tri = dt3d.Delaunay(LARGE[name], machine=sv.Device())
     want = dt3d.Delaunay(LARGE[name], method="insertion")
@@ -90,17 +90,17 @@ def test_large_families(name):
 
 def test_capacities_grow():
     points = random_set(2100)
-    found, run = fused(points, tetrahedra_per_site=1)
+    found, run = compiled(points, tetrahedra_per_site=1)
     assert_equal_to_insertion(points, found)
-    assert len(run.mesh.corners) > 4 * run.capacity
+    assert len(run.mesh.corners) > 4 * run.layout.capacity
 
 
-def test_faces_that_no_other_stage_settles_get_the_general_code(monkeypatch):
-    monkeypatch.setitem(loop.NEXT, loop.WINDOW, loop.GENERAL)
+def test_faces_that_no_other_stage_settles_go_to_the_vectors(monkeypatch):
+    monkeypatch.setitem(stages.WIDER_STAGE, stages.Stage.WINDOW, stages.Stage.VECTORS)
     points = random_set(2000)
-    found, run = fused(points)
+    found, run = compiled(points)
     assert_equal_to_insertion(points, found)
-    assert run.exact_decisions > 0
+    assert found.counts.exact_decisions > 0
 
 
 def test_windows_hold_the_sites_of_their_cells():
