@@ -1,4 +1,5 @@
 # Two commands matter: `make demo` and `make test`. Each sets up what it needs in .venv, once.
+# `make lint` is the part of `make test` that takes seconds: rules, format and types.
 # `make fuzz TIME=3600` looks for inputs that fail, for as many seconds.
 
 # The first Python on the path that is new enough; `make PYTHON=/path/to/python test` chooses another.
@@ -18,12 +19,10 @@ TOGETHER := -n auto --dist loadfile
 demo: $(READY)
 	$(BIN)/dt3d demo --out out
 
-test: $(READY)
-	$(BIN)/ruff check .
+test: lint
 	$(BIN)/python -m pytest $(TOGETHER)
 
-test-all: $(READY)
-	$(BIN)/ruff check .
+test-all: lint
 	$(BIN)/python -m pytest $(TOGETHER) -m "slow or not slow"
 
 TIME ?= 60
@@ -33,6 +32,7 @@ fuzz: $(READY)
 
 lint: $(READY)
 	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
 clean:

@@ -1,4 +1,6 @@
-"""dt3d: Delaunay triangulations in parallel, and how they come about.
+"""Exact 3D Delaunay triangulations, by multithreaded insertion or by the algorithm of Teng et al.
+
+`help(dt3d.Delaunay)` has a table of which call runs which engine.
 
 >>> import numpy as np, dt3d
 >>> tri = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)))
@@ -9,7 +11,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._errors import (
@@ -50,9 +52,11 @@ _MODULES = {
 }
 
 
-def __getattr__(name: str) -> Any:
-    """A public name, loaded when it is first used: JAX takes a second, in which the command has to be there
-    for Ctrl-C already."""
+def __getattr__(name: str) -> object:
+    """Load a public name when it is first used.
+
+    JAX takes a second to load, and the command line has to answer Ctrl-C before that.
+    """
     if name not in _MODULES:
         msg = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(msg)

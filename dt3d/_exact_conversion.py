@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from decimal import Decimal
 from numbers import Real
-from typing import Any
+from typing import SupportsIndex
 
 import numpy as np
+import numpy.typing as npt
 
 WHOLE = 2**53  # integers up to this are float64 numbers, all of them
 FLOAT64 = np.dtype(np.float64)  # in the byte order of this machine
@@ -23,7 +24,7 @@ CURES = {
 }
 
 
-def to_float64(array: Any, what: str = "points", whole: str | None = None) -> np.ndarray:
+def to_float64(array: npt.ArrayLike, what: str = "points", whole: str | None = None) -> np.ndarray:
     """The numbers as float64 of the same shape; the array itself where it is float64 already.
 
     What is converted is converted back and compared, so the result equals what came. NaN and infinity pass.
@@ -61,7 +62,7 @@ def to_float64(array: Any, what: str = "points", whole: str | None = None) -> np
     return converted
 
 
-def _as_array(array: Any) -> np.ndarray:
+def _as_array(array: npt.ArrayLike) -> np.ndarray:
     """NumPy's array of what came; of objects where NumPy would round integers that lie beside floats."""
     if not isinstance(array, list | tuple):
         return np.asarray(array)
@@ -113,7 +114,7 @@ def _from_objects(given: np.ndarray, what: str, whole: str) -> np.ndarray:
     return converted
 
 
-def _inexact(value: Any, nearest: float, place: str, what: str, whole: str) -> ValueError:
+def _inexact(value: object, nearest: float, place: str, what: str, whole: str) -> ValueError:
     which = f"{place} of {what} is {_shown(value)}, which"
     if np.isinf(nearest):
         return ValueError(f"{which} is too great for float64 ({GREATEST}); divide all by a power of two")
@@ -124,7 +125,7 @@ def _inexact(value: Any, nearest: float, place: str, what: str, whole: str) -> V
     return ValueError(f"{which} float64 does not hold exactly (the nearest is {shown}); {cure}")
 
 
-def _place(index: tuple[Any, ...]) -> str:
+def _place(index: tuple[SupportsIndex, ...]) -> str:
     if len(index) == 2:
         return f"row {index[0]}, column {index[1]}"
     if len(index) == 1:
@@ -132,7 +133,7 @@ def _place(index: tuple[Any, ...]) -> str:
     return f"index {tuple(map(int, index))}" if index else "one number"
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     """The value in full where it is a number of few digits, else its beginning and its length."""
     if isinstance(value, int) and abs(value) >= 10**40:
         return f"an integer of {value.bit_length()} bits"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence, Sized
 from os import PathLike
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -13,12 +13,12 @@ from ._exact_conversion import to_float64
 AXES = "xyz"
 
 
-def as_numbers(given: Any, name: str, dimension: int) -> tuple[np.ndarray, str]:
+def as_numbers(given: object, name: str, dimension: int) -> tuple[np.ndarray, str]:
     """The array that was given, not yet float64 and of any shape, and an expression for it in messages.
 
     Parameters
     ----------
-    given
+    given : object
         An array, what NumPy makes an array of, a masked array with nothing masked, a structured array with
         fields x, y and z, a table (of pandas, for example), or an object with an attribute ``points``, as
         a mesh of PyVista has.
@@ -50,14 +50,15 @@ def as_numbers(given: Any, name: str, dimension: int) -> tuple[np.ndarray, str]:
         columns = ", ".join(f"{name}[{key!r}]" for key in list(given)[:dimension])
         msg = f"{name} must be an array, got a {type(given).__name__}; pass np.column_stack([{columns}])"
         raise ValueError(msg)
-    if hasattr(given, "to_numpy") and hasattr(given, "columns") and len(np.shape(given)) == 2:
+    if hasattr(given, "to_numpy") and hasattr(given, "columns") and len(np.shape(cast(Any, given))) == 2:
         return _table(given, name, dimension), f"{name}.to_numpy().astype(np.float64)"
-    if np.ndim(getattr(given, "points", 0)) == 2:
-        return as_numbers(given.points, f"{name}.points", dimension)
+    points: Any = getattr(given, "points", 0)
+    if np.ndim(points) == 2:
+        return as_numbers(points, f"{name}.points", dimension)
     return _made(given, name), f"np.asarray({name})"
 
 
-def _made(given: Any, name: str) -> np.ndarray:
+def _made(given: object, name: str) -> np.ndarray:
     """NumPy's array of an object of another library."""
     try:
         array = np.asarray(given)
@@ -73,7 +74,7 @@ def _made(given: Any, name: str) -> np.ndarray:
     return array
 
 
-def _rows(given: list | tuple, name: str, dimension: int) -> np.ndarray:
+def _rows(given: Sequence[object], name: str, dimension: int) -> np.ndarray:
     if any(isinstance(row, np.ma.MaskedArray) for row in given):  # np.asarray would drop their masks
         return np.asarray(_unmasked(np.ma.array(given), f"np.ma.array({name})"))
     try:
@@ -81,7 +82,7 @@ def _rows(given: list | tuple, name: str, dimension: int) -> np.ndarray:
     except OverflowError:  # a great integer beside floats
         return np.asarray(given, object)
     except (ValueError, TypeError) as error:
-        lengths = [len(row) if _is_row(row) else 0 for row in given]
+        lengths = [len(cast(Sized, row)) if _is_row(row) else 0 for row in given]
         odd = next((i for i, length in enumerate(lengths) if length != lengths[0]), None)
         where = str(error) if odd is None else f"row {odd} has {lengths[odd]} numbers, row 0 has {lengths[0]}"
         msg = (
@@ -91,7 +92,7 @@ def _rows(given: list | tuple, name: str, dimension: int) -> np.ndarray:
         raise ValueError(msg) from None
 
 
-def _is_row(row: Any) -> bool:
+def _is_row(row: object) -> bool:
     return isinstance(row, list | tuple) or (isinstance(row, np.ndarray) and row.ndim > 0)
 
 
@@ -135,7 +136,11 @@ def _fields(given: np.ndarray, name: str, dimension: int) -> tuple[np.ndarray, s
     return np.column_stack([to_float64(given[f], f"{name}[{f!r}]", whole) for f in wanted]), whole
 
 
-def _table(given: Any, name: str, dimension: int) -> np.ndarray:
+def _table(
+    given: Any,  # a table of any library
+    name: str,
+    dimension: int,
+) -> np.ndarray:
     """The columns of a table, each converted by itself: together they could be rounded."""
     labels = list(given.columns)
     if len(labels) != dimension:
@@ -153,7 +158,11 @@ def _table(given: Any, name: str, dimension: int) -> np.ndarray:
     return np.column_stack(columns)
 
 
-def _column(column: Any, name: str, table: str) -> np.ndarray:
+def _column(
+    column: Any,  # of such a table
+    name: str,
+    table: str,
+) -> np.ndarray:
     values = column.to_numpy()
     if hasattr(column, "isna"):  # of pandas, whose missing values are of several kinds
         missing = np.flatnonzero(np.asarray(column.isna(), bool)).tolist()

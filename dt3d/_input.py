@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
 from ._errors import DegenerateInputError
 from ._exact_conversion import to_float64 as to_float64
 from ._given import as_numbers
 
-# Indices of faces (four a tetrahedron, some seven tetrahedra a site) are int32.
+# Indices of faces (four per tetrahedron, some seven tetrahedra per site) are int32.
 MOST_SITES = 2**25
 
 
-def check_points(points: Any, dimension: int = 3) -> np.ndarray:
+def check_points(points: npt.ArrayLike, dimension: int = 3) -> np.ndarray:
     """The points as a float64 array of shape (n, dimension) of its own, in C order.
 
     Raises
@@ -39,7 +38,7 @@ def check_points(points: Any, dimension: int = 3) -> np.ndarray:
     return array
 
 
-def check_queries(xi: Any, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
+def check_queries(xi: npt.ArrayLike, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
     """Points to be located, as float64 (k, dimension), and the shape of the answers. There may be any number.
 
     Raises
@@ -93,7 +92,7 @@ def _shape_error(given: np.ndarray, name: str, dimension: int) -> ValueError:
     return ValueError(f"points must have shape (n, {dimension}), got {shape}{cure}")
 
 
-def check_seed(seed: Any) -> int:
+def check_seed(seed: object) -> int:
     """The seed as a Python integer, of any size.
 
     Raises

@@ -12,6 +12,7 @@ from pathlib import Path
 
 UNKNOWN = 1 << 60  # bytes; what is assumed where the system does not tell: no limit
 MARGIN = 64 << 20  # bytes left to all else
+FEWER_THREADS = "ask for fewer with threads=1"
 SMALL = 32 << 20  # bytes that are not worth a look, which takes up to a millisecond
 
 
@@ -124,7 +125,7 @@ def _of_group(folder: Path, limit: str, usage: str, unused: str) -> int:
 
 
 @contextmanager
-def room_for_threads(cure: str = "ask for fewer with threads=1") -> Iterator[None]:
+def room_for_threads(cure: str = FEWER_THREADS) -> Iterator[None]:
     """Threads are started within; where the system refuses one, that is a MemoryError with a sentence.
 
     ``cure``: what the caller of the library can do.

@@ -2,33 +2,44 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from ._optional import optional
+from ._triangulation import Part, Whole
 
 if TYPE_CHECKING:
     import pyvista
 
+    from .delaunay import Delaunay
+    from .subset import Subset
+
+
+class Tetrahedra(Protocol):
+    """What is drawn and shown: a `Delaunay`, a `Subset`, or a `Mesh` from a file."""
+
+    @property
+    def points(self) -> np.ndarray:
+        """Sites, float (n, 3)."""
+
+    @property
+    def simplices(self) -> np.ndarray:
+        """Vertices of each tetrahedron, int (m, 4)."""
+
+    @property
+    def iteration(self) -> np.ndarray:
+        """The iteration that found each tetrahedron, int (m,)."""
+
 
 def volumes(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
-    """Volume of every tetrahedron: det[b-a, c-a, d-a] / 6, positive for positive orientation.
-
-    Parameters
-    ----------
-    points : float (n, 3)
-    simplices : int (m, 4)
-
-    Returns
-    -------
-    float64 (m,)
-    """
+    """Volume of each tetrahedron abcd, float64 (m,): det[b-a, c-a, d-a] / 6, with its sign."""
     a, b, c, d = np.asarray(points, np.float64)[simplices].swapaxes(0, 1)
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
+    sixfold: np.ndarray = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
+    return sixfold / 6.0
 
 
-def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
+def to_pyvista(tri: Tetrahedra) -> pyvista.UnstructuredGrid:
     """The tetrahedra of a triangulation, with cell data "iteration" (int32) and "volume" (float64).
 
     Points keep their numbers: point i of the grid is ``tri.points[i]``, cell j is ``tri.simplices[j]``.
@@ -40,18 +51,20 @@ def to_pyvista(tri: Any) -> pyvista.UnstructuredGrid:
     """
     pv = optional("pyvista")
     # copies, since VTK writes where an array is read-only, too
-    grid = pv.UnstructuredGrid({pv.CellType.TETRA: tri.simplices}, np.array(tri.points, np.float64))
+    grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid(
+        {pv.CellType.TETRA: tri.simplices}, np.array(tri.points, np.float64)
+    )
     grid.cell_data["iteration"] = np.array(tri.iteration, np.int32)
     grid.cell_data["volume"] = volumes(tri.points, tri.simplices)
     return grid
 
 
-def surface(tri: Any) -> np.ndarray:
+def surface(tri: Whole[Any] | Part) -> np.ndarray:  # whatever its parts are
     """The facets of the hull, int (h, 3); of a part of a triangulation, those of its boundary."""
-    return tri.boundary if hasattr(tri, "boundary") else tri.convex_hull
+    return tri.boundary if isinstance(tri, Part) else tri.convex_hull
 
 
-def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
+def hull_to_pyvista(tri: Delaunay | Subset) -> pyvista.PolyData:
     """The convex hull as a closed surface of its own points, oriented as ``tri.convex_hull``.
 
     Of a subset, its boundary.
@@ -62,18 +75,26 @@ def hull_to_pyvista(tri: Any) -> pyvista.PolyData:
         If PyVista is not installed.
     """
     pv = optional("pyvista")
-    corners, faces = np.unique(surface(tri), return_inverse=True)
-    points = np.asarray(tri.points, np.float64)[corners]
-    return pv.PolyData.from_regular_faces(points, faces.reshape(-1, 3))
+    points, faces = own_points(tri.points, surface(tri))
+    polygons: pyvista.PolyData = pv.PolyData.from_regular_faces(points, faces)
+    return polygons
 
 
-def show(tri: Any, title: str = "") -> None:
+def own_points(points: np.ndarray, facets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The points that facets (h, 3) have, float64 (k, 3), and the facets as int32 rows of these."""
+    corners, faces = np.unique(facets, return_inverse=True)
+    return np.asarray(points, np.float64)[corners], faces.reshape(-1, 3).astype(np.int32)
+
+
+def show(tri: Tetrahedra, title: str = "") -> None:
     """Open a window on the tetrahedra, with a plane to drag that cuts them open; returns when it is closed.
 
     Parameters
     ----------
-    tri : Delaunay or Mesh
+    tri : Delaunay, Subset or Mesh
+        What is shown.
     title : str
+        Of the window.
 
     Raises
     ------

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
 
-def check_simplices(simplices: Any, sites: int, corners: int, name: str = "simplices") -> np.ndarray:
+def check_simplices(
+    simplices: npt.ArrayLike, sites: int, corners: int, name: str = "simplices"
+) -> np.ndarray:
     """Simplices as int32 (m, corners), each entry the row of one of the sites.
 
     Raises
@@ -18,7 +19,7 @@ def check_simplices(simplices: Any, sites: int, corners: int, name: str = "simpl
     return _check(simplices, corners, name, "sites", 0, sites, f"there are {sites} points")
 
 
-def check_neighbors(neighbors: Any, simplices: int, corners: int) -> np.ndarray:
+def check_neighbors(neighbors: npt.ArrayLike, simplices: int, corners: int) -> np.ndarray:
     """Neighbours as int32 (simplices, corners), each entry the row of a simplex or -1 for none.
 
     Raises
@@ -34,7 +35,7 @@ def check_neighbors(neighbors: Any, simplices: int, corners: int) -> np.ndarray:
     return checked
 
 
-def check_duplicates(duplicates: Any, sites: int) -> np.ndarray:
+def check_duplicates(duplicates: npt.ArrayLike, sites: int) -> np.ndarray:
     """Duplicates as int32 (k, 2): rows of a site and of the equal one that stands for it.
 
     Raises
@@ -46,7 +47,7 @@ def check_duplicates(duplicates: Any, sites: int) -> np.ndarray:
 
 
 def _check(
-    indices: Any, columns: int, name: str, of_what: str, least: int, end: int, known: str
+    indices: npt.ArrayLike, columns: int, name: str, of_what: str, least: int, end: int, known: str
 ) -> np.ndarray:
     shape = f"shape ({'k' if name == 'duplicates' else 'm'}, {columns})"
     if np.ma.is_masked(indices):

@@ -8,18 +8,22 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
 from ._optional import optional
 from ._output import save_figure
-from ._paths import by_extension, check_writable, written_aside
+from ._paths import check_target, written_aside
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from ._triangulation import InPlane
 
 
-def write_plane_mesh(tri: Any, path: str | Path) -> None:
+def write_plane_mesh(tri: InPlane, path: str | Path) -> None:
     """Write a triangulation in the plane.
 
     =============== ==========================================================================================
@@ -31,7 +35,8 @@ def write_plane_mesh(tri: Any, path: str | Path) -> None:
 
     Parameters
     ----------
-    tri : threaded2d.Delaunay
+    tri : threaded2d.Delaunay or threaded2d.Subset
+        What is written.
     path : str or Path
         A file that exists is replaced, when the new one is whole.
 
@@ -47,71 +52,64 @@ def write_plane_mesh(tri: Any, path: str | Path) -> None:
 
 def check_plane_path(path: str | Path) -> Path:
     """The path, if triangles can be written there; a ValueError or OSError if not."""
-    path = Path(path)
-    by_extension(path, WRITERS, "write triangles to")
-    check_writable(path)
-    return path
+    return check_target(path, WRITERS, "write triangles to")
 
 
-def draw_plane(tri: Any, path: Path) -> None:
-    """A picture of the triangles, coloured by the threads that made them; `plot.FORMATS` has the
-    extensions."""
-    save_figure(tri.plot().figure, path, dpi=200)
+def draw_plane(tri: InPlane, path: Path) -> None:
+    """Draw the triangles, coloured by the threads that made them; `plot.FORMATS` has the extensions."""
+    figure = tri.plot().get_figure(root=True)
+    assert figure is not None
+    save_figure(figure, path, dpi=200)
 
 
-def _raised(tri: Any) -> np.ndarray:
+def _raised(tri: InPlane) -> np.ndarray:
     """The points with z = 0, float64 (n, 3)."""
     return np.column_stack([tri.points, np.zeros(len(tri.points))])
 
 
-def _surface(tri: Any) -> Any:
-    """The triangles in the place of a hull, for the writers of surfaces."""
-    return SimpleNamespace(points=_raised(tri), convex_hull=tri.triangles)
-
-
-def _write_npz(tri: Any, path: Path) -> None:
+def _write_npz(tri: InPlane, path: Path) -> None:
     with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
         np.savez_compressed(
             file, points=tri.points, triangles=tri.triangles, neighbors=tri.neighbors, thread=tri.thread
         )
 
 
-def _grid(tri: Any) -> Any:
+def _grid(tri: InPlane) -> pyvista.UnstructuredGrid:
     pv = optional("pyvista")
-    grid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
+    grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     grid.cell_data["thread"] = tri.thread
     return grid
 
 
-def _write_vtu(tri: Any, path: Path) -> None:
+def _write_vtu(tri: InPlane, path: Path) -> None:
     grid = _grid(tri)  # says what to install where VTK is missing
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
 
 
-def _write_vtp(tri: Any, path: Path) -> None:
+def _write_vtp(tri: InPlane, path: Path) -> None:
     surface = tri.to_pyvista()
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
     save_xml(vtkXMLPolyDataWriter(), surface, path)
 
 
-def _write_vtk(tri: Any, path: Path) -> None:
+def _write_vtk(tri: InPlane, path: Path) -> None:
     save_legacy(_grid(tri), path)
 
 
-def _write_gmsh(tri: Any, path: Path) -> None:
+def _write_gmsh(tri: InPlane, path: Path) -> None:
     meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}), "4.1")
 
 
-def _write_medit(tri: Any, path: Path) -> None:
+def _write_medit(tri: InPlane, path: Path) -> None:
     meshio = optional("meshio")
     meshio.medit.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}))
 
 
-def _write_obj(tri: Any, path: Path) -> None:
+def _write_obj(tri: InPlane, path: Path) -> None:
     text = io.StringIO()
     text.write("# triangulation in the plane by dt3d\n")
     text.writelines(f"v {x!r} {y!r} 0\n" for x, y in tri.points.tolist())
@@ -119,14 +117,14 @@ def _write_obj(tri: Any, path: Path) -> None:
     path.write_text(text.getvalue(), encoding="ascii")
 
 
-WRITERS: dict[str, Callable[[Any, Path], None]] = {
+WRITERS: dict[str, Callable[[InPlane, Path], None]] = {
     ".npz": _write_npz,
     ".vtu": _write_vtu,
     ".vtk": _write_vtk,
     ".vtp": _write_vtp,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": lambda tri, path: write_ply(_surface(tri), path),
-    ".stl": lambda tri, path: write_stl(_surface(tri), path),
+    ".ply": lambda tri, path: write_ply(_raised(tri), tri.triangles, path),
+    ".stl": lambda tri, path: write_stl(_raised(tri), tri.triangles, path),
     ".obj": _write_obj,
 }

@@ -8,16 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._mesh import surface, to_pyvista, volumes
+from ._mesh import own_points, surface, to_pyvista, volumes
 from ._optional import optional
-from ._paths import by_extension, check_writable, written_aside
+from ._paths import check_target, written_aside
+
+if TYPE_CHECKING:
+    import pyvista
+    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
+    from vtkmodules.vtkIOXML import vtkXMLWriter
+
+    from .delaunay import Delaunay
+    from .subset import Subset
 
 
-def write_mesh(tri: Any, path: str | Path) -> None:
+def write_mesh(tri: Delaunay | Subset, path: str | Path) -> None:
     """Write a triangulation.
 
     ============ =============================================================================================
@@ -29,7 +37,8 @@ def write_mesh(tri: Any, path: str | Path) -> None:
 
     Parameters
     ----------
-    tri : Delaunay
+    tri : Delaunay or Subset
+        What is written.
     path : str or Path
         A file that exists is replaced, when the new one is whole; until then, and if it cannot be
         written, it is as it was.
@@ -54,105 +63,101 @@ def check_mesh_path(path: str | Path) -> Path:
     OSError
         If the folder does not exist or may not be written, or the file may not be replaced.
     """
-    path = Path(path)
-    by_extension(path, WRITERS, "write a mesh to")
-    check_writable(path)
-    return path
+    return check_target(path, WRITERS, "write a mesh to")
 
 
-def _write_npz(tri: Any, path: Path) -> None:
+def _write_npz(tri: Delaunay | Subset, path: Path) -> None:
     arrays = {name: getattr(tri, name) for name in ("points", "simplices", "neighbors", "iteration")}
     with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
         np.savez_compressed(file, volume=volumes(tri.points, tri.simplices), **arrays)
 
 
-def _write_vtu(tri: Any, path: Path) -> None:
+def _write_vtu(tri: Delaunay | Subset, path: Path) -> None:
     grid = to_pyvista(tri)  # says what to install where VTK is missing
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
 
 
-def _write_vtk(tri: Any, path: Path) -> None:
+def _write_vtk(tri: Delaunay | Subset, path: Path) -> None:
     save_legacy(to_pyvista(tri), path)
 
 
-def save_xml(writer: Any, mesh: Any, path: Path) -> None:
+def save_xml(writer: vtkXMLWriter, mesh: pyvista.DataSet, path: Path) -> None:
     """A mesh of PyVista by one of VTK's writers of XML."""
     writer.SetDataModeToBinary()
     writer.SetCompressorTypeToZLib()
-    path.write_bytes(_in_memory(writer, mesh).GetOutputString().encode())
+    _to_memory(writer, mesh)
+    path.write_bytes(writer.GetOutputString().encode())
 
 
-def save_legacy(grid: Any, path: Path) -> None:
+def save_legacy(grid: pyvista.UnstructuredGrid, path: Path) -> None:
     """An unstructured grid of PyVista in VTK's legacy format."""
     from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
 
     writer = vtkUnstructuredGridWriter()
     writer.SetFileTypeToBinary()
-    path.write_bytes(_in_memory(writer, grid).GetOutputStdString())
+    _to_memory(writer, grid)
+    path.write_bytes(writer.GetOutputStdString())  # type: ignore[arg-type]  # bytes, which VTK calls str
 
 
-def _in_memory(writer: Any, grid: Any) -> Any:
+def _to_memory(writer: vtkXMLWriter | vtkUnstructuredGridWriter, grid: pyvista.DataSet) -> None:
     writer.SetInputData(grid)
     writer.WriteToOutputStringOn()
     if not writer.Write():
         msg = f"{type(writer).__name__} could not make the file (error {writer.GetErrorCode()})"
         raise OSError(msg)
-    return writer
 
 
-def _write_gmsh(tri: Any, path: Path) -> None:
+def _write_gmsh(tri: Delaunay | Subset, path: Path) -> None:
     meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}), "4.1")
 
 
-def _write_medit(tri: Any, path: Path) -> None:
+def _write_medit(tri: Delaunay | Subset, path: Path) -> None:
     meshio = optional("meshio")
     reference = {"medit:ref": [np.asarray(tri.iteration)]}
     meshio.medit.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}, cell_data=reference))
 
 
-def write_ply(tri: Any, path: Path) -> None:
+def write_ply(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
+    """Write facets (h, 3) of points (n, 3) as binary PLY, which has no other points."""
     meshio = optional("meshio")
-    meshio.ply.write(path, meshio.Mesh(*_hull(tri)), binary=True)
+    points, facets = own_points(points, facets)
+    meshio.ply.write(path, meshio.Mesh(points, {"triangle": facets}), binary=True)
 
 
-def write_stl(tri: Any, path: Path) -> None:
-    """Binary STL: 80 bytes that say nothing, the number of facets, and 50 bytes for each.
+def write_stl(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
+    """Write facets (h, 3) of points (n, 3) as binary STL.
+
+    That is 80 bytes that say nothing, the number of facets, and 50 bytes for each facet.
 
     meshio has NumPy write the facets (``tofile``), which overlooks a disk that is full at their end.
     """
-    points, cells = _hull(tri)
+    points, facets = own_points(points, facets)
     greatest = np.abs(points).max(initial=0.0)
     if greatest > np.finfo(np.float32).max:
         msg = f"a coordinate of {greatest:g} is beyond the single precision of .stl; write .ply"
         raise ValueError(msg)
-    corners = points[cells["triangle"]]
+    corners = points[facets]
     # normals of the set scaled to 1: squares of great and of small coordinates are beyond what float64 has
     a, b, c = (corners / (greatest or 1.0)).swapaxes(0, 1)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    facets = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    facets["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    facets["corners"] = corners
+    rows = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    rows["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    rows["corners"] = corners
     with path.open("wb") as file:
-        file.write(b"convex hull by dt3d".ljust(80) + np.uint32(len(facets)).astype("<u4").tobytes())
-        file.write(facets.tobytes())
+        file.write(b"convex hull by dt3d".ljust(80) + np.uint32(len(rows)).astype("<u4").tobytes())
+        file.write(rows.tobytes())
 
 
-def _hull(tri: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """The convex hull as a closed surface of its own points, oriented outwards."""
-    corners, faces = np.unique(surface(tri), return_inverse=True)
-    return np.asarray(tri.points, np.float64)[corners], {"triangle": faces.reshape(-1, 3).astype(np.int32)}
-
-
-WRITERS: dict[str, Callable[[Any, Path], None]] = {
+WRITERS: dict[str, Callable[[Delaunay | Subset, Path], None]] = {
     ".npz": _write_npz,
     ".vtu": _write_vtu,
     ".vtk": _write_vtk,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": write_ply,
-    ".stl": write_stl,
+    ".ply": lambda tri, path: write_ply(tri.points, surface(tri), path),
+    ".stl": lambda tri, path: write_stl(tri.points, surface(tri), path),
 }

@@ -34,6 +34,14 @@ def check_apart(written: Path, other: Path, way_out: str = "name another file") 
         raise ValueError(msg)
 
 
+def check_target(path: str | Path, table: dict[str, F], verb: str) -> Path:
+    """The path, if the table has its extension and it can be written; a ValueError or OSError if not."""
+    path = Path(path)
+    by_extension(path, table, verb)
+    check_writable(path)
+    return path
+
+
 def by_extension(path: Path, table: dict[str, F], verb: str) -> F:
     """The table's entry for the extension, in any case; otherwise a ValueError that lists the known ones."""
     try:

@@ -53,9 +53,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _topology
 from ._input import check_points, exactly_scaled, first_copies
@@ -129,11 +129,11 @@ class Space:
 
 def prove(
     space: Space,
-    points: Any,
-    simplices: Any,
+    points: npt.ArrayLike,
+    simplices: npt.ArrayLike,
     *,
-    neighbors: Any,
-    duplicates: Any,
+    neighbors: npt.ArrayLike | None,
+    duplicates: npt.ArrayLike | None,
     perturbed: bool,
     oriented: bool,
 ) -> Verification:
@@ -254,4 +254,4 @@ def _hull(space: Space, simplices: np.ndarray, pairs: np.ndarray) -> np.ndarray:
     alone = np.ones(simplices.size, bool)
     alone[pairs] = False
     t, k = np.divmod(np.flatnonzero(alone), simplices.shape[1])
-    return simplices[t[:, None], space.outward[k]]
+    return np.asarray(simplices[t[:, None], space.outward[k]])

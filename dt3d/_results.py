@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, ClassVar, NoReturn, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from ._topology import OUTSIDE
 
@@ -37,18 +38,20 @@ class Result:
     _derived: ClassVar[Names] = ()
     """Names of what is computed when first asked for, and is in no pickle."""
 
-    def _keep(self, **results: Any) -> None:
+    def _keep(self, **results: object) -> None:
         """Set results, once they are what they will be; arrays become read-only."""
         for name in self._derived:  # of other results, if there were any
             self.__dict__.pop(name, None)
         for name, value in results.items():
             self.__dict__[name] = frozen(value) if isinstance(value, np.ndarray) else value
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
+        """Refuse to replace a result; attributes of the user's own are fine."""
         self._refuse(name, "assigned")
         super().__setattr__(name, value)
 
     def __delattr__(self, name: str) -> None:
+        """Refuse to delete a result."""
         self._refuse(name, "deleted")
         super().__delattr__(name)
 
@@ -65,11 +68,12 @@ class Result:
         msg = f"{name} cannot be {what}: results stay as they were computed; {cure}"
         raise AttributeError(msg)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
+        """What a pickle has: all but what can be computed again."""
         return {name: value for name, value in self.__dict__.items() if name not in self._derived}
 
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """What a pickle has, checked as if it came from a stranger.
+    def __setstate__(self, state: dict[str, object]) -> None:
+        """Restore what a pickle has, checked as if it came from a stranger.
 
         Raises
         ------
@@ -79,20 +83,22 @@ class Result:
         missing = set(self._arrays + self._others) - set(state)
         if missing:
             damaged(f"there is no {', '.join(sorted(missing))}")
+        arrays: dict[str, np.ndarray] = {}
         for name in self._arrays:
-            if not isinstance(state[name], np.ndarray) or not state[name].ndim:
+            array = state[name]
+            if not isinstance(array, np.ndarray) or not array.ndim:
                 damaged(f"{name} is no array")
-        own = {name: value for name, value in state.items() if name not in self._derived}
-        # a buffer that came beside the pickle may belong to someone who changes it
-        own |= {name: state[name] if _in_bytes(state[name]) else state[name].copy() for name in self._arrays}
-        self._check(own)
-        self._keep(**own)
+            # a buffer that came beside the pickle may be changed by its owner
+            arrays[name] = array if _in_bytes(array) else array.copy()
+        self._check(arrays)
+        self._keep(**{name: state[name] for name in state.keys() - set(self._derived)} | arrays)
 
-    def _check(self, own: dict[str, Any]) -> None:
+    def _check(self, own: dict[str, np.ndarray]) -> None:
         """Raise a ValueError unless the arrays are those of a triangulation."""
         raise NotImplementedError
 
     def __copy__(self) -> Self:
+        """Share the arrays, which nobody changes."""
         copy = type(self).__new__(type(self))
         copy.__dict__.update(self.__dict__)
         return copy
@@ -106,9 +112,11 @@ def check_complex(
     Parameters
     ----------
     points : float64 (n, d)
+        Sites.
     simplices, neighbors : int32 (m, d + 1)
+        Rows of points, and of simplices or -1.
     dimension : 2 or 3
-        d, or what the points say.
+        d; that of the points if left out.
     """
     d = dimension or (points.shape[1] if points.ndim == 2 else 3)
     check_array("points", points, np.float64, (len(points), d))
@@ -120,7 +128,7 @@ def check_complex(
     check_range("neighbors", neighbors, OUTSIDE, len(simplices))
 
 
-def check_array(name: str, array: np.ndarray, dtype: Any, shape: tuple[int, ...]) -> None:
+def check_array(name: str, array: np.ndarray, dtype: npt.DTypeLike, shape: tuple[int, ...]) -> None:
     """Raise a ValueError unless the array is of this dtype, in the machine's byte order, and shape."""
     if array.dtype != dtype or array.shape != shape:
         damaged(f"{name} are {array.dtype} of shape {array.shape}, not {np.dtype(dtype)} of {shape}")

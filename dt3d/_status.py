@@ -7,7 +7,7 @@
        one line says what
 70     a fault of dt3d, to be reported (EX_SOFTWARE of sysexits.h)
 130    Ctrl-C (128 + SIGINT)
-141    whoever read the output has closed it, as `head` does (128 + SIGPIPE)
+141    the reader of the output has closed it, as `head` does (128 + SIGPIPE)
 ====== ==================================================================================
 """
 
@@ -22,7 +22,7 @@ import threading
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, TextIO
 
 from rich.console import Console
 
@@ -40,18 +40,20 @@ class Verdict(SystemExit):
 
 
 class Printer(Console):
-    """A console whose failures reach `run`: rich itself would end the process with status 1.
+    """A console that passes its failures to `run`: rich itself would end the process with status 1.
 
     Nor does it draw stars for the name of a file that has ``:star:`` in it.
     """
 
-    def __init__(self, **options: Any) -> None:
+    def __init__(self, **options: Any) -> None:  # rich's
         super().__init__(emoji=False, **options)
 
     def on_broken_pipe(self) -> None:
-        raise  # noqa: PLE0704  the BrokenPipeError that called this
+        """Raise the BrokenPipeError that called this."""
+        raise
 
-    def print(self, *objects: Any, **options: Any) -> None:
+    def print(self, *objects: object, **options: Any) -> None:  # rich's
+        """Print; an OSError of one line where that fails."""
         try:
             super().print(*objects, **options)
         except BrokenPipeError:
@@ -146,7 +148,7 @@ def _flush(errors: Console, status: int) -> int:
     return status
 
 
-def _silence(stream: Any) -> None:
+def _silence(stream: TextIO) -> None:
     """What is left in the buffer goes nowhere, rather than into a complaint of Python's after the end."""
     with contextlib.suppress(OSError, ValueError, AttributeError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -177,7 +179,7 @@ def _lines(errors: Console) -> Iterator[None]:
         def emit(self, record: logging.LogRecord) -> None:
             _say(errors, f"dt3d: {one_line(record.getMessage())}")
 
-    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+    def show(message: Warning | str, *_: object, **__: object) -> None:
         _say(errors, f"dt3d: warning: {one_line(message)}")
 
     log, lines = logging.getLogger("dt3d"), Lines()
@@ -200,7 +202,7 @@ class _Interrupts:
     def __enter__(self) -> _Interrupts:
         if threading.current_thread() is threading.main_thread():
             before = signal.getsignal(signal.SIGINT)
-            if callable(before):  # neither ignored nor somebody else's who is not Python
+            if callable(before):  # neither ignored nor set by something else than Python
                 self.before = before
                 signal.signal(signal.SIGINT, self._come)
         self.unraisable = sys.unraisablehook
@@ -212,11 +214,11 @@ class _Interrupts:
         if self.before is not None:
             signal.signal(signal.SIGINT, self.before)
 
-    def _come(self, *_: Any) -> None:
+    def _come(self, *_: object) -> None:
         self.seen = True
         if not self.over:
             raise KeyboardInterrupt
 
-    def _unraisable(self, what: Any) -> None:
+    def _unraisable(self, what: sys.UnraisableHookArgs) -> None:
         if not isinstance(what.exc_value, (KeyboardInterrupt, BrokenPipeError)):
             self.unraisable(what)

@@ -1,4 +1,4 @@
-"""Facets of tetrahedra, by index only: no coordinates here."""
+"""Facets of simplices, by index only: no coordinates here."""
 
 from __future__ import annotations
 
@@ -9,12 +9,16 @@ OUTSIDE = -1
 
 # Row k: the facet opposite the k-th vertex of a positive tetrahedron, counter-clockwise from outside.
 OUTWARD = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+# Row k: the edge opposite the k-th vertex of a positive triangle, which has the triangle on its left.
+OUTWARD_IN_PLANE = np.array([[1, 2], [2, 0], [0, 1]])
 
 
 def hull_facets(simplices: np.ndarray, neighbors: np.ndarray) -> np.ndarray:
-    """The facets without neighbour, int32 (h, 3), oriented outwards."""
-    tetrahedron, k = np.nonzero(neighbors == OUTSIDE)
-    return simplices[tetrahedron[:, None], OUTWARD[k]]
+    """The facets without neighbour, int32 (h, d), oriented outwards, of simplices (m, d + 1)."""
+    simplex, k = np.nonzero(neighbors == OUTSIDE)
+    outward = OUTWARD if simplices.shape[1] == 4 else OUTWARD_IN_PLANE
+    facets: np.ndarray = simplices[simplex[:, None], outward[k]]
+    return facets
 
 
 def open_edges(facets: np.ndarray) -> int:

@@ -1,36 +1,50 @@
-"""The public class: `dt3d.Delaunay`."""
+"""`dt3d.Delaunay`: the options choose an engine, whose result becomes read-only arrays."""
 
 from __future__ import annotations
 
 import itertools
 import time
 from collections.abc import Callable
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 import scanvec as sv
 
-from . import _topology
 from ._input import check_points, check_seed, exactly_scaled, word_of
-from ._results import Names, Result, check_array, check_complex, check_range, frozen
+from ._options import Method, Robustness, check_space_options
+from ._results import Names
 from ._stats import InsertionStatistics, Progress, Statistics
+from ._triangulation import InSpace, Part, Whole
 from .extrapolation import triangulate as extrapolate
 from .subset import Subset
 
 if TYPE_CHECKING:
-    import pyvista
-
-    from .location import Locator
-    from .verification import Verification
-
-METHODS = ("auto", "insertion", "extrapolation")
-ROBUSTNESS = ("exact", "perturb")
+    from ._proof import Verification
 
 
-class Delaunay(Result):
+class Delaunay(Whole[Subset], InSpace):
     """The Delaunay triangulation of points in space.
+
+    Which call runs what:
+
+    ========================================  ===========================================================
+    call                                      engine
+    ========================================  ===========================================================
+    ``Delaunay(points)``                      insertion by threads on this CPU
+    ``Delaunay(points, method=E)``            extrapolation on ``scanvec.Device()``: whole steps compiled,
+                                              from 2,000 sites that fill space evenly; else vectors
+    ``Delaunay(points, machine=S)``           extrapolation in vectors, exact search; a ledger of its steps
+    ``Delaunay(points, machine=S,             the paper: Teng, Sullivan, Beichl and Puppo (1993), with their
+    robustness="perturb")``                   random perturbation and consistency check
+    ``threaded2d.Delaunay(points2d)``         in the plane: threads that change one mesh in place
+    ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
+    method="batch", order="random")``         methods have names, too
+    ========================================  ===========================================================
+
+    Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same
+    tetrahedra.
 
     The result stays as it was computed: its arrays are read-only, and its attributes cannot be assigned. Take
     a copy of an array to change it, and `subset` for a part of the tetrahedra.
@@ -40,30 +54,30 @@ class Delaunay(Result):
     points : array_like (n, 3)
         Sites: real, finite, at least four that do not lie on a plane.
     method : "auto", "insertion" or "extrapolation"
-        "insertion" puts the sites in one by one on a CPU, exactly. "extrapolation" is the data-parallel
-        method of Teng, Sullivan, Beichl and Puppo (1993) on a scanvec machine. "auto" inserts, unless
-        ``machine`` or ``robustness="perturb"`` asks for what only extrapolation has. Both find the same
-        tetrahedra; but extrapolation compares every face with every site where thousands lie on one sphere.
+        "insertion" inserts the sites one by one on a CPU. "extrapolation" is the data-parallel algorithm of
+        Teng et al. on a scanvec machine. "auto" inserts, unless ``machine`` or ``robustness="perturb"`` is
+        given, which only extrapolation has. Extrapolation compares every face with every site where
+        thousands of sites lie on one sphere.
     robustness : "exact" or "perturb"
-        "exact": all decisions are right, cospherical sites are decided by a symbolic perturbation, and the
-        result does not depend on the method, the machine or the order of the sites. "perturb": the paper's
-        random linear perturbation of about 1e-9 decides cospherical sites, in floating point, and a check of
-        the topology counts inconsistencies; by extrapolation only.
+        "exact": all decisions are right. A symbolic perturbation decides cospherical sites, and the result
+        does not depend on the method, the machine or the order of the sites. "perturb", by extrapolation
+        only: the paper's random linear perturbation of about 1e-9 decides cospherical sites, in floating
+        point, and a check of the topology counts inconsistencies.
     machine : scanvec.Machine, optional
         Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
         machines give the same tetrahedra.
     threads : int, optional
-        At most so many threads insert at the same time, and no more than this process has cores. By default
-        as many as cores, or fewer where more do not pay. The result does not depend on it.
+        The most threads that insert at the same time; never more than the cores that this process may use.
+        By default as many as cores, fewer for small sets. The result does not depend on it.
     dtype : float64 or float32, optional
         Working precision, float64 by default. Single precision is for experiments with
         ``robustness="perturb"``: it decides less.
     seed : int
-        Of any size, not negative: of the perturbation, or of the order of insertion (which does not change
-        the result).
+        Not negative, of any size: for the perturbation, or for the order of insertion, which does not change
+        the result.
     callback : callable, optional
-        Called with a `Progress` after every iteration, or stretch of 100,000 sites inserted. What it raises
-        ends the triangulation.
+        Called with a `Progress` after every iteration of an extrapolation, or every 100,000 sites inserted.
+        An exception that it raises ends the triangulation.
 
     Attributes
     ----------
@@ -74,11 +88,12 @@ class Delaunay(Result):
     neighbors : ndarray of int32 (m, 4)
         The k-th is the tetrahedron opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
     iteration : ndarray of int32 (m,)
-        The iteration, from 1, that found each tetrahedron; 1 for all by insertion.
+        The iteration, from 1, that found each tetrahedron. By extrapolation in vectors, the paper's; in
+        compiled steps, the wave, of which there are more; by insertion 1 for all.
     duplicates : ndarray of int32 (k, 2)
         A site that was not used, and the equal site that was.
     stats : Statistics or InsertionStatistics
-        Counts and times, of what the method counts.
+        Counts and times; each method has counts of its own.
 
     Raises
     ------
@@ -110,51 +125,35 @@ class Delaunay(Result):
     ((6, 4), (12, 3))
     """
 
-    points: np.ndarray
-    """The sites as given, float64 (n, 3)."""
-    simplices: np.ndarray
-    """Tetrahedra, positively oriented, int32 (m, 4)."""
-    neighbors: np.ndarray
-    """The tetrahedron opposite each vertex, `dt3d.OUTSIDE` (-1) beyond the hull, int32 (m, 4)."""
-    iteration: np.ndarray
-    """The iteration, from 1, that found each tetrahedron, int32 (m,)."""
-    duplicates: np.ndarray
-    """A site that was not used, and the equal site that was, int32 (k, 2)."""
     stats: Statistics | InsertionStatistics
     """Counts and times."""
-    _exact: bool
 
-    _arrays: ClassVar[Names] = ("points", "simplices", "neighbors", "iteration", "duplicates")
+    _dimension: ClassVar[int] = 3
+    _part: ClassVar[type[Part]] = Subset
     _others: ClassVar[Names] = ("stats", "_exact")
-    _derived: ClassVar[Names] = ("convex_hull", "vertex_neighbor_vertices", "_locator")
 
     def __init__(
         self,
-        points: Any,
+        points: npt.ArrayLike,
         *,
-        method: str = "auto",
-        robustness: str = "exact",
+        method: Method = "auto",
+        robustness: Robustness = "exact",
         machine: sv.Machine | None = None,
         threads: int | None = None,
-        dtype: Any = None,
+        dtype: npt.DTypeLike | None = None,
         seed: int = 0,
-        callback: Callable[[Progress], Any] | None = None,
+        callback: Callable[[Progress], object] | None = None,
     ) -> None:
         begun = time.perf_counter()
-        working = _check_dtype(dtype)
         seed = check_seed(seed)
-        if callback is not None and not callable(callback):
-            msg = f"callback must be callable, got {callback!r}"
-            raise ValueError(msg)
-        method = _check_method(method, robustness, machine, working)
-        _check_threads(threads, method)
+        chosen, working = check_space_options(method, robustness, machine, threads, callback, dtype)
         self._keep(points=check_points(points), _exact=robustness == "exact")
 
         def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
                 callback(Progress(iteration, left, tetrahedra, time.perf_counter() - begun))
 
-        if method == "insertion":
+        if chosen == "insertion":
             self._insert(seed, threads, report, begun)
         else:
             machine = sv.Device() if machine is None else machine
@@ -208,145 +207,12 @@ class Delaunay(Result):
             stats=outcome.statistics(machine.ledger, time.perf_counter() - begun),
         )
 
-    @cached_property
-    def convex_hull(self) -> np.ndarray:
-        """Facets of the convex hull, int32 (h, 3), oriented outwards (counter-clockwise from outside)."""
-        return frozen(_topology.hull_facets(self.simplices, self.neighbors))
-
-    def find_simplex(self, xi: Any) -> np.ndarray:
-        """The tetrahedron that contains each point, exactly; as `scipy.spatial.Delaunay.find_simplex`.
-
-        Parameters
-        ----------
-        xi : array_like, real (..., 3)
-
-        Returns
-        -------
-        int32 (...)
-            Rows of `simplices`; `dt3d.OUTSIDE` (-1) for points outside the convex hull. Of several tetrahedra
-            that have a point on their common border, any one.
-
-        Raises
-        ------
-        ValueError
-            If the points are not finite, real and of shape (..., 3).
-        """
-        return self._locator.find(xi)
-
-    def subset(self, keep: Any) -> Subset:
-        """Some of the tetrahedra, as an object of its own, with `find_simplex`: holes, alpha shapes.
-
-        Parameters
-        ----------
-        keep : bool (m,), or int (k,)
-            A mask of the tetrahedra, or rows of `simplices` without repetition.
-
-        Raises
-        ------
-        ValueError
-            If it is neither.
-        """
-        return Subset(self, keep)
-
-    @cached_property
-    def _locator(self) -> Locator:
-        from .location import Locator
-
-        return Locator(self.points, self.simplices, self.neighbors, self._exact)
-
-    @cached_property
-    def vertex_neighbor_vertices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The vertices that an edge joins with each site: ``(indptr, indices)``, int32 (n + 1,) and (2 e,).
-
-        Those of site k are ``indices[indptr[k]:indptr[k + 1]]``, in ascending order; none for duplicates.
-        """
-        from ._vertices import neighbors_of_vertices
-
-        # it indexes without a check
-        check_range("simplices", self.simplices, 0, len(self.points))
-        indptr, indices = neighbors_of_vertices(self.simplices, len(self.points))
-        return frozen(indptr), frozen(indices)
-
-    def verify(self) -> Verification:
-        """Prove the result with exact arithmetic; false, and a sentence for each invariant, where it fails.
-
-        Unless ``robustness="perturb"`` was asked for, it must also be the one triangulation that the symbolic
-        perturbation defines.
-        """
+    @staticmethod
+    def _proof() -> Callable[..., Verification]:
         from .verification import verify
 
-        return verify(
-            self.points,
-            self.simplices,
-            neighbors=self.neighbors,
-            duplicates=self.duplicates,
-            perturbed=self._exact,
-            oriented=True,
-        )
-
-    def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """The tetrahedra as a PyVista grid with cell data "iteration" and "volume".
-
-        Raises ImportError, saying what to install, where PyVista is missing.
-        """
-        from ._mesh import to_pyvista
-
-        return to_pyvista(self)
-
-    def _check(self, own: dict[str, Any]) -> None:
-        n, m = len(own["points"]), len(own["simplices"])
-        check_complex(own["points"], own["simplices"], own["neighbors"], dimension=3)
-        check_array("iteration", own["iteration"], np.int32, (m,))
-        check_array("duplicates", own["duplicates"], np.int32, (len(own["duplicates"]), 2))
-        check_range("duplicates", own["duplicates"], 0, n)
+        return verify
 
     def __repr__(self) -> str:
+        """How many sites and tetrahedra."""
         return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
-
-
-def _check_method(method: Any, robustness: Any, machine: Any, dtype: np.dtype) -> str:
-    """The method that the options ask for."""
-    if method not in METHODS:
-        msg = f"method must be {', '.join(map(repr, METHODS[:-1]))} or {METHODS[-1]!r}, got {method!r}"
-        raise ValueError(msg)
-    if robustness not in ROBUSTNESS:
-        msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
-        raise ValueError(msg)
-    if machine is not None and not isinstance(machine, sv.Machine):
-        msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
-        raise ValueError(msg)
-    if dtype == np.float32 and robustness == "exact":
-        msg = "dtype='float32' cannot hold the sites exactly; it goes with robustness='perturb'"
-        raise ValueError(msg)
-    only_extrapolation = machine is not None or robustness == "perturb"
-    if method == "insertion" and only_extrapolation:
-        msg = (
-            "method='insertion' is exact, and runs on this CPU; machine and robustness='perturb' go with "
-            "method='extrapolation'"
-        )
-        raise ValueError(msg)
-    if method == "auto":
-        return "extrapolation" if only_extrapolation else "insertion"
-    return method
-
-
-def _check_threads(threads: Any, method: str) -> None:
-    if threads is None:
-        return
-    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or threads < 1:
-        msg = f"threads must be a positive integer, or None for as many as there are cores, got {threads!r}"
-        raise ValueError(msg)
-    if method != "insertion":
-        msg = f"threads={threads} goes with method='insertion'; what extrapolation runs on is its machine"
-        raise ValueError(msg)
-
-
-def _check_dtype(dtype: Any) -> np.dtype:
-    try:
-        working = np.dtype(np.float64 if dtype is None else dtype)
-    except TypeError:
-        working = None
-    if working not in (np.float32, np.float64):
-        msg = f"dtype must be float64 or float32, got {dtype!r}"
-        raise ValueError(msg)
-    return working

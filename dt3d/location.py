@@ -9,73 +9,78 @@ from __future__ import annotations
 
 import os
 import threading
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any
+import weakref
+from functools import partial
 
 import numpy as np
+import numpy.typing as npt
 
 from ._errors import InternalError
 from ._input import check_queries
-from ._memory import room_for_threads
+from ._memory import require
 from ._numba.announce import announce_compilation
 from ._numba.cores import available_cores
 from ._numba.kernel_cache import cached_njit
+from ._numba.threads import run_short_tasks
+from ._numba.unowned import unowned
 from ._results import check_complex, check_range, frozen
-from ._star import find_beside, side_of_facet
+from ._star import Complex, find_beside, side_of_facet
 from ._topology import OUTSIDE
-from .insertion.order import along_curve
+from .ordering.along_curve import along_curve_in_space
 from .predicates import work_array
 
-PIECE = 4096  # points that a thread takes at a time
-AT_A_TIME = 2**22  # points that are put in order together
+LEAST_POINTS_PER_THREAD = 4096
+POINTS_AT_A_TIME = 2**22  # that are put in order together
+BYTES_PER_POINT = 110  # of those, in space, as measured, without the result
 LOST = -2  # a walk of more steps than there are simplices, which no Delaunay triangulation has
 
 
 @cached_njit
-def _walk(rows, simplices, neighbors, t, q, w):
+def _walk(cells, t, q, w):
     """Where the walk from t to row q ends, `OUTSIDE` or `LOST`; and the simplex where it ended.
 
     Each step goes to a simplex of whose sphere, perturbed, q has a lesser power, so none is visited twice.
     """
-    came, facets = OUTSIDE, simplices.shape[1]
-    for step in range(len(simplices)):
+    previous, facets = OUTSIDE, cells.simplices.shape[1]
+    for step in range(len(cells.simplices)):
         ahead = t
         for i in range(facets):
             k = (i + step) % facets  # another first facet each time
-            u = neighbors[t, k]
-            if (u != came or u == OUTSIDE) and side_of_facet(rows, simplices, t, k, q, w) < 0:
+            u = cells.neighbors[t, k]
+            if (u != previous or u == OUTSIDE) and side_of_facet(cells, t, k, q, w) < 0:
                 if u == OUTSIDE:
                     return OUTSIDE, t
                 ahead = u
                 break
         if ahead == t:
             return t, t
-        came, t = t, ahead
+        previous, t = t, ahead
     return LOST, t
 
 
 @cached_njit
-def _search(rows, simplices, q, w):
+def _search(cells, q, w):
     """The first simplex that contains row q, or `OUTSIDE`."""
-    for t in range(len(simplices)):
+    for t in range(len(cells.simplices)):
         contained = True
-        for k in range(simplices.shape[1]):
-            contained = contained and side_of_facet(rows, simplices, t, k, q, w) >= 0
+        for k in range(cells.simplices.shape[1]):
+            contained = contained and side_of_facet(cells, t, k, q, w) >= 0
         if contained:
             return t
     return OUTSIDE
 
 
 @cached_njit(nogil=True)
-def _find(rows, simplices, neighbors, convex, q, t, points, order, begin, end, out, w):
-    """Locate points[order[begin:end]] by walks from t on, each copied to row q; where the last walk ended, or
-    `LOST` where the first one was."""
-    for i in order[begin:end]:
-        rows[q] = points[i]
-        out[i], t = _walk(rows, simplices, neighbors, t, q, w)
+def _find(cells, t, q, points, order, out, w):
+    """Locate points[order] by walks from t on, each copied to row q; where the last walk ended, or `LOST`
+    where the first one was."""
+    cells, w = unowned(cells), unowned(w)
+    for i in order:
+        cells.rows[q] = points[i]
+        out[i], t = _walk(cells, t, q, w)
         if out[i] < 0:
-            if not convex:
-                out[i] = _search(rows, simplices, q, w)
+            if not cells.convex:
+                out[i] = _search(cells, q, w)
             elif out[i] == LOST:
                 return LOST
     return t
@@ -104,17 +109,20 @@ class Locator:
         self, sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, convex: bool = True
     ) -> None:
         # first frozen, then checked, so that nothing can change between; and one type to numba
-        self.simplices, self.neighbors, self.convex = frozen(simplices), frozen(neighbors), convex
+        self.simplices, self.neighbors = frozen(simplices), frozen(neighbors)
         check_complex(sites, self.simplices, self.neighbors)
         announce_compilation()
         self.low, self.high = sites.min(axis=0), sites.max(axis=0)
         threads = available_cores()
         # predicates take rows of one array, so every thread has a row for the point at hand
-        self.rows = np.concatenate([sites, np.empty((threads, sites.shape[1]))])
+        rows = np.concatenate([sites, np.empty((threads, sites.shape[1]))])
+        self.cells = Complex(rows, self.simplices, self.neighbors, bool(convex))
         self.works = [work_array(sites) for _ in range(threads)]
         self.last = [0] * threads
+        self.lock = threading.Lock()  # the rows for points at hand have one user
+        _LOCATORS.add(self)
 
-    def find(self, xi: Any) -> np.ndarray:
+    def find(self, xi: npt.ArrayLike) -> np.ndarray:
         """The simplex that contains each point of xi, real (..., d): int32 (...), or `OUTSIDE`.
 
         Raises
@@ -129,13 +137,15 @@ class Locator:
 
     def find_checked(self, points: np.ndarray) -> np.ndarray:
         """The same for finite float64 (k, d): int32 (k,). Of millions of points some are taken at a time."""
+        at_a_time = min(len(points), POINTS_AT_A_TIME)
+        require(f"locating {len(points)} points", 4 * len(points) + BYTES_PER_POINT * at_a_time)
         out = np.full(len(points), OUTSIDE, np.int32)
-        for begin in range(0, len(points), AT_A_TIME):
+        for begin in range(0, len(points), POINTS_AT_A_TIME):
             # a copy is contiguous, and nobody else changes it
-            part = np.array(points[begin : begin + AT_A_TIME], order="C")
+            part = np.array(points[begin : begin + POINTS_AT_A_TIME], order="C")
             within = np.flatnonzero(((part >= self.low) & (part <= self.high)).all(axis=1))
-            with _ONE_AT_A_TIME:
-                self._find(part, within[_along_curve(part[within])], out[begin : begin + AT_A_TIME])
+            with self.lock:
+                self._find(part, within[_along_curve(part[within])], out[begin : begin + POINTS_AT_A_TIME])
         return out
 
     def find_kept(self, points: np.ndarray, found: np.ndarray, kept: np.ndarray) -> np.ndarray:
@@ -156,46 +166,35 @@ class Locator:
         """
         out = np.full(len(points), OUTSIDE, np.int32)
         check_range("found", found, 0, len(self.simplices))
-        with _ONE_AT_A_TIME:
-            find_beside(
-                self.rows, self.simplices, self.neighbors, kept.copy(), len(self.rows) - 1,
-                np.array(points, order="C"), found, out, self.works[0],
-            )  # fmt: skip
+        with self.lock:
+            part = np.array(points, order="C")
+            find_beside(self.cells, kept.copy(), len(self.cells.rows) - 1, part, found, out, self.works[0])
         return out
 
     def _find(self, points: np.ndarray, order: np.ndarray, out: np.ndarray) -> None:
-        threads = max(1, min(len(self.last), len(order) // PIECE))
+        threads = max(1, min(len(self.last), len(order) // LEAST_POINTS_PER_THREAD))
         bounds = [len(order) * k // threads for k in range(threads + 1)]
 
         def work(k: int) -> None:
-            row = len(self.rows) - 1 - k
-            last = _find(
-                self.rows, self.simplices, self.neighbors, self.convex, row, self.last[k],
-                points, order, bounds[k], bounds[k + 1], out, self.works[k],
-            )  # fmt: skip
+            part, row = order[bounds[k] : bounds[k + 1]], len(self.cells.rows) - 1 - k
+            last = _find(self.cells, self.last[k], row, points, part, out, self.works[k])
             if last == LOST:
-                msg = (
-                    f"a walk to a point does not end after {len(self.simplices)} steps, one for each simplex"
-                )
+                most = len(self.simplices)
+                msg = f"a walk to a point does not end after {most} steps, one for each simplex"
                 raise InternalError(msg)
             self.last[k] = last
 
-        if threads == 1:
-            work(0)
-            return
-        fewer = f"locate fewer than {2 * PIECE} points at a time"
-        with room_for_threads(fewer), ThreadPoolExecutor(threads) as pool:
-            list(pool.map(work, range(threads)))
+        fewer = f"locate fewer than {2 * LEAST_POINTS_PER_THREAD} points at a time"
+        run_short_tasks([partial(work, k) for k in range(threads)], fewer)
 
 
-# the rows for points at hand have one user
-_ONE_AT_A_TIME = threading.Lock()
+_LOCATORS: weakref.WeakSet[Locator] = weakref.WeakSet()
 
 
 def _in_child() -> None:
-    """After a fork whoever had the lock is not there to give it back."""
-    global _ONE_AT_A_TIME
-    _ONE_AT_A_TIME = threading.Lock()
+    """After a fork the thread that had a lock is not there to give it back."""
+    for locator in _LOCATORS:
+        locator.lock = threading.Lock()
 
 
 if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
@@ -208,4 +207,4 @@ def _along_curve(points: np.ndarray) -> np.ndarray:
         return np.arange(len(points))
     in_space = np.zeros((len(points), 3))
     in_space[:, : points.shape[1]] = points
-    return along_curve(in_space, lambda work, n: work(0, n))
+    return along_curve_in_space(in_space, lambda work, n: work(0, n))

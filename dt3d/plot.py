@@ -12,17 +12,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._optional import optional
-from ._output import save_figure
+from ._output import save_figure as save_figure
 from ._paths import check_writable
 from ._topology import OUTWARD
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._mesh import Tetrahedra
 
 FORMATS = (".png", ".pdf", ".svg", ".jpg")
 
@@ -59,14 +63,14 @@ class View:
 
 
 def draw(
-    tri: Any,
+    tri: Tetrahedra,
     path: str | Path,
-    views: View | Sequence[View] = View(),  # noqa: B008  frozen
+    views: View | Sequence[View] = View(),
     *,
     width: int = 1400,
     height: int = 1200,
 ) -> None:
-    """Write a picture of a triangulation, one panel a view, side by side.
+    """Write a picture of a triangulation, one panel per view, side by side.
 
     Parameters
     ----------
@@ -75,6 +79,7 @@ def draw(
     path : str or Path
         .png, .pdf, .svg or .jpg; vector formats suit up to some thousand tetrahedra.
     views : View or sequence of View
+        A panel for each.
     width, height : int
         Pixels of one panel.
 
@@ -105,7 +110,7 @@ def draw(
     save_figure(figure, path)
 
 
-def _add_scale(mpl: Any, figure: Any, axes: Any, last: int, size: float) -> None:
+def _add_scale(mpl: ModuleType, figure: Figure, axes: Axes, last: int, size: float) -> None:
     """The colour bar of the iterations."""
     colors = mpl.colors.ListedColormap(_palette(mpl, last))
     norm = mpl.colors.BoundaryNorm(np.arange(0.5, last + 1), last)
@@ -116,7 +121,7 @@ def _add_scale(mpl: Any, figure: Any, axes: Any, last: int, size: float) -> None
     scale.outline.set_visible(False)
 
 
-def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:  # noqa: B008
+def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float = 12) -> None:
     """Paint a triangulation on matplotlib axes, which it clears of ticks and frame.
 
     Parameters
@@ -124,7 +129,9 @@ def paint(tri: Any, ax: Axes, view: View = View(), *, title_size: float = 12) ->
     tri : Delaunay
         Anything with ``points``, ``simplices`` and ``iteration``.
     ax : matplotlib.axes.Axes
+        Where it is painted.
     view : View
+        What is shown, and from where.
     title_size : float
         In points.
 
@@ -185,7 +192,7 @@ def check_picture_path(path: str | Path) -> Path:
     return path
 
 
-def _palette(mpl: Any, last: int) -> np.ndarray:
+def _palette(mpl: ModuleType, last: int) -> np.ndarray:
     """A colour for every iteration from 1 to the last: float64 (last, 3).
 
     Where there is one only, as by insertion, there is nothing to tell apart: one light colour.
@@ -193,7 +200,7 @@ def _palette(mpl: Any, last: int) -> np.ndarray:
     if last == 1:
         return np.array([mpl.colors.to_rgb("#9ecae1")])
     # from blue through pale yellow to red: told apart by colour-blind eyes, and under light and shade
-    return mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, last))[:, :3]
+    return np.asarray(mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, last)))[:, :3]
 
 
 def _camera(view: View) -> np.ndarray:
@@ -240,10 +247,11 @@ def _light(color: np.ndarray, normal: np.ndarray, depth: np.ndarray) -> np.ndarr
     lamp = np.array([-0.35, 0.55, 0.75])
     lit = color * (0.55 + 0.5 * np.clip(normal @ (lamp / np.linalg.norm(lamp)), 0.0, 1.0))[:, None]
     haze = 0.18 * np.clip(1.0 - depth, 0.0, 2.0)[:, None] / 2.0
-    return np.clip(lit * (1.0 - haze) + haze, 0.0, 1.0)
+    return np.asarray(np.clip(lit * (1.0 - haze) + haze, 0.0, 1.0))
 
 
-def _import_matplotlib() -> Any:
+def _import_matplotlib() -> ModuleType:
     for module in ("cm", "collections", "figure"):
         optional(f"matplotlib.{module}", "a picture")
-    return optional("matplotlib", "a picture")
+    matplotlib: ModuleType = optional("matplotlib", "a picture")
+    return matplotlib

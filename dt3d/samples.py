@@ -17,7 +17,8 @@ def mtor() -> np.ndarray:
         nothing like a uniform set.
     """
     with (files(__package__) / "data" / "mtor.npz").open("rb") as stream:
-        return np.load(stream)["points"]
+        points: np.ndarray = np.load(stream)["points"]
+    return points
 
 
 def crater_lake() -> np.ndarray:

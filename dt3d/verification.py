@@ -8,9 +8,8 @@ checked and the theorem that they imply it; here are the exact signs that they n
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
 from . import _topology
 from ._numba.kernel_cache import cached_njit
@@ -22,11 +21,11 @@ __all__ = ["Verification", "verify"]
 
 
 def verify(
-    points: Any,
-    simplices: Any,
+    points: npt.ArrayLike,
+    simplices: npt.ArrayLike,
     *,
-    neighbors: Any = None,
-    duplicates: Any = None,
+    neighbors: npt.ArrayLike | None = None,
+    duplicates: npt.ArrayLike | None = None,
     perturbed: bool = False,
     oriented: bool = False,
 ) -> Verification:
@@ -40,6 +39,7 @@ def verify(
     Parameters
     ----------
     points : float64 (n, 3)
+        The sites.
     simplices : int (m, 4)
         Of either orientation: those with det[b-a, c-a, d-a] < 0 are turned first, which is a remark.
     neighbors : int (m, 4), optional
@@ -59,6 +59,13 @@ def verify(
         integers, have another shape, or name what there is not.
     MemoryError
         If the system does not have the memory.
+
+    Examples
+    --------
+    >>> from dt3d.verification import verify
+    >>> sites = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.1, 0.1, 0.1]]
+    >>> bool(verify(sites[:4], [[0, 1, 2, 3]])), bool(verify(sites, [[0, 1, 2, 3]]))
+    (True, False)
     """
     return prove(
         SPACE,
@@ -134,7 +141,7 @@ def _dents(sites: np.ndarray, hull: np.ndarray, w: np.ndarray) -> int:
     if repeated:
         return repeated
     left, right = pairs.T
-    return _count_bent(sites, np.column_stack([edges[left], opposite[left], opposite[right]]), w)
+    return int(_count_bent(sites, np.column_stack([edges[left], opposite[left], opposite[right]]), w))
 
 
 @cached_njit

@@ -16,6 +16,7 @@ import numpy as np
 import dt3d
 import scanvec as sv
 import scanvec.plot
+from dt3d.plot import save_figure
 
 NODES = (32, 64, 128, 256, 512, 1024)
 
@@ -48,8 +49,7 @@ def main(argv: list[str] | None = None) -> None:
     print(f"\n{sv.CM5}")
 
     path = options.folder / "cm5_scaling.png"
-    axes = sv.plot.time_by_primitive(cm5.ledger)
-    axes.figure.savefig(path)
+    save_figure(sv.plot.time_by_primitive(cm5.ledger).figure, path)
     print(f"\nwrote {path}")
 
 

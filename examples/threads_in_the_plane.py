@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from dt3d import threaded2d
+from dt3d.plot import save_figure
 
 
 def main(argv: list[str] | None = None) -> None:
@@ -37,10 +38,10 @@ def main(argv: list[str] | None = None) -> None:
             f"{method}: {len(tri.triangles)} triangles, {'the same' if same else 'OTHERS'} as by one thread"
         )
         print(f"    inserted {s.inserted}, waits {s.waits}, begun again {s.retries}")
-        print(f"    {s.tests_per_access:.1f} circum-circle tests a change, {s.exceptions} deadlocks resolved")
+        print(f"    {s.tests_per_access:.1f} tests per change, {s.exceptions} deadlocks resolved")
 
     if options.write is not None:
-        tri.plot().figure.savefig(options.write)
+        save_figure(tri.plot().figure, options.write)
         print(f"wrote {options.write}")
 
 

@@ -17,37 +17,43 @@ G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 
 from . import _deprecated
 
-# cost models, and their calibration
-from ._calibration import calibrate
-
 # exclusive access
-from ._conflict import ConcurrentAccessError, Conflict
-from ._connection_machines import CM2, CM5
+from ._ledger.conflict import ConcurrentAccessError, Conflict
 
 # machines, vectors and ledgers
-from ._device import Device
-from ._elementwise import elementwise
-from ._entry import Entry, Row
+from ._ledger.entry import Entry, Row
+from ._ledger.ledger import Ledger
+from ._machine.base import Machine
+from ._machine.device import Device
+from ._machine.simulated import Simulated
 
-# scalars
-from ._front_end import extract, insert
-from ._ledger import Ledger
-from ._machine import Machine
-
-# two records into one
-from ._merge import flag_merge, where
-from ._model import Constant, Model
+# cost models, and their calibration
+from ._models.calibration import calibrate
+from ._models.connection_machines import CM2, CM5
+from ._models.model import Constant, Model
+from ._models.networks import HYPERCUBE, MESH2D
+from ._models.pram import CRCW_PRAM, EREW_PRAM, SCAN
 
 # operators
 from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
 
+# functions of elements
+from ._primitives.elementwise import elementwise
+
+# two records into one
+from ._primitives.merge import flag_merge, where
+
+# vectors of other lengths
+from ._primitives.pack import append, distribute, pack, pack_index, split
+
 # movement
-from ._move import append, distribute, full_like, get, pack, pack_index, permute, scatter, send, split
-from ._networks import HYPERCUBE, MESH2D
-from ._pram import CRCW_PRAM, EREW_PRAM, SCAN
+from ._primitives.permute import get, permute, scatter, send
+
+# scalars
+from ._primitives.scalar import extract, full_like, insert
 
 # scans and reductions
-from ._scan import (
+from ._primitives.scan import (
     backscan,
     backscan_inclusive,
     copy_scan,
@@ -57,11 +63,10 @@ from ._scan import (
     scan,
     scan_inclusive,
 )
-from ._segments import Segments
-from ._simulated import Simulated
 
 # sorting and sets
-from ._sort import rank, segmented_sort, sort, union, unique
+from ._primitives.sort import rank, segmented_sort, sort, union, unique
+from ._segments import Segments
 from ._vector import Vector
 
 __all__ = [

@@ -1,10 +1,7 @@
 """Monoids: the operators of scans, reductions and concurrent writes.
 
 A monoid is a value, not a string: an associative function, its identity and a name. The seven of the
-scan model are here (Blelloch 1990, chapter 3); a reader's own are as good, on records too:
-
->>> import jax.numpy as jnp, scanvec as sv
->>> LONGEST = sv.Monoid("longest", lambda a, b: jnp.where(b > a, b, a), lambda dtype: 0)
+scan model are here (Blelloch 1990, chapter 3); a reader's own are as good, on records too.
 """
 
 from __future__ import annotations
@@ -16,11 +13,19 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
+
+from ._records import R, each
 
 
 @dataclass(frozen=True)
 class Monoid:
     """An associative operator with an identity.
+
+    >>> import jax.numpy as jnp, scanvec as sv
+    >>> FARTHEST = sv.Monoid("farthest", lambda a, b: jnp.where(abs(b) > abs(a), b, a), lambda dtype: 0)
+    >>> print(sv.reduce(sv.Device().vector([3, -7, 5]), FARTHEST))
+    -7
 
     Attributes
     ----------
@@ -41,8 +46,11 @@ class Monoid:
     identity: Callable[[Any], Any]
     kinds: str = "biuf"
 
-    def check(self, dtype: np.dtype, primitive: str) -> None:
-        """Raise TypeError where this operator has no meaning for ``dtype``."""
+    def check(self, dtype: np.dtype[np.generic], primitive: str) -> None:
+        """Raise TypeError where this operator has no meaning for ``dtype``.
+
+        >>> ADD.check(np.dtype("int32"), "scan")
+        """
         if dtype.kind not in self.kinds:
             msg = (
                 f"{primitive}: the operator {self.name} is not defined for {dtype} elements; "
@@ -54,42 +62,48 @@ class Monoid:
         return f"scanvec.{self.name.upper()}"
 
 
-def lowest(dtype: np.dtype) -> Any:
+def lowest(dtype: npt.DTypeLike) -> float:
     """The least value of a dtype: -inf, the least integer, or False."""
     dtype = np.dtype(dtype)
     if dtype.kind == "f":
         return -np.inf
-    return False if dtype.kind == "b" else np.iinfo(dtype).min
+    return False if dtype.kind == "b" else int(np.iinfo(dtype).min)
 
 
-def highest(dtype: np.dtype) -> Any:
+def highest(dtype: npt.DTypeLike) -> float:
     """The greatest value of a dtype: inf, the greatest integer, or True."""
     dtype = np.dtype(dtype)
     if dtype.kind == "f":
         return np.inf
-    return True if dtype.kind == "b" else np.iinfo(dtype).max
+    return True if dtype.kind == "b" else int(np.iinfo(dtype).max)
 
 
-def _all_ones(dtype: np.dtype) -> Any:
+def _all_ones(dtype: npt.DTypeLike) -> int:
     dtype = np.dtype(dtype)
     if dtype.kind == "b":
         return True
-    return -1 if dtype.kind == "i" else np.iinfo(dtype).max
+    return -1 if dtype.kind == "i" else int(np.iinfo(dtype).max)
 
 
-def _left(a: Any, b: Any) -> Any:
+def _left(a: jax.Array, b: jax.Array) -> jax.Array:
     return a
 
 
-def _argmin(a: tuple, b: tuple) -> tuple:
+def _right(a: jax.Array, b: jax.Array) -> jax.Array:
+    return b
+
+
+def _argmin(a: tuple[jax.Array, R], b: tuple[jax.Array, R]) -> tuple[jax.Array, R]:
     # Strict, so that of equal keys the one further left is kept. NaN is less than any number, as it is to
     # minimum: were it neither less nor greater, the operator would not be associative.
     a_is_nan, b_is_nan = a[0] != a[0], b[0] != b[0]
     take_b = (b[0] < a[0]) | (b_is_nan & ~a_is_nan)
-    return jax.tree.map(lambda u, v: jnp.where(take_b, v, u), a, b)
+    return each(lambda u, v: jnp.where(take_b, v, u), a, b)
 
 
-def _of_leaves(name: str, fn: Callable, identity: Callable, kinds: str = "biuf") -> Monoid:
+def _of_leaves(
+    name: str, fn: Callable[..., object], identity: Callable[..., object], kinds: str = "biuf"
+) -> Monoid:
     """The operator that combines a record leaf by leaf."""
     return Monoid(
         name, lambda a, b: jax.tree.map(fn, a, b), lambda dtypes: jax.tree.map(identity, dtypes), kinds
@@ -113,3 +127,6 @@ ARGMIN = Monoid("argmin", _argmin, lambda dtypes: (highest(dtypes[0]), jax.tree.
 # Their identities hold on the right only: COPY(0, a) is 0, and ARGMIN((inf, 0), (inf, 7)) loses the 7. So
 # machines start their scans with a head flag at the first element, and nothing is combined from its left.
 ONE_SIDED = (COPY, ARGMIN)
+
+# For exclusive writes: no two elements may go to one place, which is checked, so nothing is combined.
+UNIQUE = Monoid("unique", _right, lambda dtype: 0)

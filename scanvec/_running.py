@@ -33,7 +33,8 @@ def computing() -> AbstractContextManager[None]:
         )
         raise RuntimeError(msg)
     _Process.has_run = True
-    return jax.enable_x64(True)
+    with_64_bits: AbstractContextManager[None] = jax.enable_x64(True)
+    return with_64_bits
 
 
 def _before_fork() -> None:

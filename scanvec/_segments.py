@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
-from . import _local
 from ._checks import LARGEST_VECTOR, check_flags
-from ._machine import Machine
-from ._monoid import ADD, MAX, MIN
+from ._machine.base import Machine
+from ._monoid import ADD, MAX, MIN, UNIQUE
 from ._vector import Vector
 
 
@@ -39,16 +38,29 @@ class Segments:
 
     @property
     def machine(self) -> Machine:
+        """Where the vectors live."""
         return self.heads.machine
 
     @property
     def count(self) -> int:
-        """m, the number of segments."""
+        """m, the number of segments.
+
+        >>> import scanvec as sv
+        >>> segments = sv.Segments.from_lengths(sv.Device().vector([3, 0, 2]))
+        >>> segments.count
+        3
+        """
         return len(self.lengths)
 
     @property
     def offsets(self) -> Vector:
-        """r[i] = i minus the start of i's segment, int32. Three steps."""
+        """r[i] = i minus the start of i's segment, int32. Three steps.
+
+        >>> import scanvec as sv
+        >>> segments = sv.Segments.from_lengths(sv.Device().vector([3, 0, 2]))
+        >>> segments.offsets
+        Vector([0 1 2 0 1], dtype=int32, Device())
+        """
         machine = self.machine
         return machine.iota(len(self.ids)) - machine.get(self.starts, self.ids)
 
@@ -62,6 +74,13 @@ class Segments:
             If a length is negative, or they add up to more than 2^31 - 1.
         TypeError
             If the lengths are not integers.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> segments = sv.Segments.from_lengths(sv.Device().vector([3, 0, 2]))
+        >>> segments.ids
+        Vector([0 0 0 2 2], dtype=int32, Device())
         """
         machine = lengths.machine
         if lengths.dtype.kind not in "iu":
@@ -86,7 +105,7 @@ class Segments:
         starts = ends.astype(np.int32) - lengths
         marks = machine.full(n, -1, np.int32)
         if n:
-            marks = machine.send(machine.iota(m), starts, _local.UNIQUE, into=marks, where=lengths > 0)
+            marks = machine.send(machine.iota(m), starts, UNIQUE, into=marks, where=lengths > 0)
         return cls(marks >= 0, machine.scan(marks, MAX, exclusive=False), lengths, starts)
 
     @classmethod
@@ -97,6 +116,13 @@ class Segments:
         ------
         TypeError
             If the flags are not booleans.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> heads = sv.Device().vector([True, False, False, True])
+        >>> sv.Segments.from_flags(heads).lengths
+        Vector([3 1], dtype=int32, Device())
         """
         check_flags(heads, "head flags")
         machine = heads.machine
@@ -108,13 +134,19 @@ class Segments:
         ids = machine.scan(heads, ADD, exclusive=False) - 1
         m = int(machine.item(ids, -1)) + 1
         zeros = machine.full(m, 0, np.int32)
-        starts = machine.send(index, ids, _local.UNIQUE, into=zeros, where=heads)
+        starts = machine.send(index, ids, UNIQUE, into=zeros, where=heads)
         ones = machine.full(n, 1, np.int32)
         return cls(heads, ids, machine.send(ones, ids, ADD, into=zeros), starts)
 
     @classmethod
     def from_ids(cls, ids: Vector) -> Segments:
-        """Segments of equal consecutive ids; they are numbered anew from 0. Thirteen steps."""
+        """Segments of equal consecutive ids; they are numbered anew from 0. Thirteen steps.
+
+        >>> import scanvec as sv
+        >>> ids = sv.Device().vector([7, 7, 7, 2])
+        >>> sv.Segments.from_ids(ids).lengths
+        Vector([3 1], dtype=int32, Device())
+        """
         machine = ids.machine
         n = len(ids)
         if not n:
@@ -124,6 +156,6 @@ class Segments:
         return cls.from_flags(ids != before)
 
 
-def _wide(length: Any) -> Any:
-    too_long = length > min(LARGEST_VECTOR, int(jnp.iinfo(length.dtype).max))
+def _wide(length: jax.Array) -> jax.Array:
+    too_long = length > min(LARGEST_VECTOR, int(np.iinfo(length.dtype).max))
     return jnp.where(too_long, LARGEST_VECTOR + 1, length.astype(jnp.int64))

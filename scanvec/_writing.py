@@ -18,7 +18,7 @@ import stat
 import threading
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import FrameType
 
 ENDING = ("SIGTERM", "SIGHUP")  # what `kill` and a closed terminal send, where the system has them
 
@@ -147,7 +147,7 @@ def _removed_first(aside: Path) -> Iterator[None]:
     numbers = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
     numbers = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
 
-    def end(number: int, _: Any) -> None:
+    def end(number: int, _: FrameType | None) -> None:
         _remove(aside)
         signal.signal(number, signal.SIG_DFL)
         os.kill(os.getpid(), number)

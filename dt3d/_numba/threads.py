@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
-from .._memory import room_for_threads
+from .._memory import FEWER_THREADS, room_for_threads
 
 R = TypeVar("R")
 
@@ -14,7 +14,10 @@ SECONDS_BETWEEN_LOOKS = 0.05  # of the main thread, which a thread that ends or 
 
 
 def run_threads(
-    tasks: Sequence[Callable[[], R]], stop: Callable[[], None], watch: Callable[[], object] | None = None
+    tasks: Sequence[Callable[[], R]],
+    stop: Callable[[], None],
+    watch: Callable[[], object] | None = None,
+    cure: str = FEWER_THREADS,
 ) -> list[R]:
     """Run each task in its own thread and return what they return.
 
@@ -29,6 +32,8 @@ def run_threads(
         when this thread is interrupted.
     watch : function, optional
         Called in this thread every `SECONDS_BETWEEN_LOOKS` while tasks run.
+    cure : str
+        What a user can do where the system refuses a thread.
 
     Raises
     ------
@@ -54,7 +59,7 @@ def run_threads(
     started: list[threading.Event] = []
     try:
         for k in range(len(tasks)):
-            with room_for_threads():
+            with room_for_threads(cure):
                 threading.Thread(target=run, args=(k,), daemon=True).start()
             started.append(ended[k])
         for event in started:
@@ -71,9 +76,9 @@ def run_threads(
     return [results[k] for k in range(len(tasks))]
 
 
-def run_short_tasks(tasks: Sequence[Callable[[], object]]) -> None:
+def run_short_tasks(tasks: Sequence[Callable[[], object]], cure: str = FEWER_THREADS) -> None:
     """Run tasks that are too short to be stopped; a single one in the calling thread."""
     if len(tasks) == 1:
         tasks[0]()
     else:
-        run_threads(tasks, lambda: None)
+        run_threads(tasks, lambda: None, cure=cure)

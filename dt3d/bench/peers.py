@@ -9,19 +9,29 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pyvista
+    import scipy.spatial
+
+    from ..delaunay import Delaunay
 
 from .._numba.cores import available_cores
 
+T = TypeVar("T")  # what a library takes
+R = TypeVar("R")  # and what it makes of that
 
-def _simplices_of(result: Any) -> np.ndarray:
+
+def _simplices_of(result: Delaunay | scipy.spatial.Delaunay) -> np.ndarray:
     return np.asarray(result.simplices)
 
 
 @dataclass(frozen=True)
-class Calls:
+class Calls(Generic[T, R]):
     """A library that is loaded.
 
     ``prepare(points)`` makes what ``triangulate`` takes; ``simplices`` gets int (m, 4) from its result, the
@@ -29,12 +39,12 @@ class Calls:
     gets m.
     """
 
-    triangulate: Callable[[Any], Any]
-    simplices: Callable[[Any], np.ndarray] | None
-    prepare: Callable[[np.ndarray], Any] = np.asarray
-    count: Callable[[Any], int] | None = None
+    triangulate: Callable[[T], R]
+    simplices: Callable[[R], np.ndarray] | None
+    prepare: Callable[[np.ndarray], T]
+    count: Callable[[R], int] | None = None
 
-    def tetrahedra(self, result: Any) -> int:
+    def tetrahedra(self, result: R) -> int:
         """How many a result has."""
         if self.count is not None:
             return self.count(result)
@@ -42,32 +52,33 @@ class Calls:
         return len(self.simplices(result))
 
 
-def _dt3d(threads: int | None) -> Calls:
+def _dt3d(threads: int | None) -> Calls[Any, Any]:
     from ..delaunay import Delaunay
 
-    return Calls(lambda points: Delaunay(points, threads=threads), _simplices_of)
+    return Calls(lambda points: Delaunay(points, threads=threads), _simplices_of, np.asarray)
 
 
-def _scipy(threads: int | None) -> Calls:
+def _scipy(threads: int | None) -> Calls[Any, Any]:
     from scipy.spatial import Delaunay
 
-    return Calls(Delaunay, _simplices_of)
+    return Calls(Delaunay, _simplices_of, np.asarray)
 
 
-def _vtk(threads: int | None) -> Calls:
+def _vtk(threads: int | None) -> Calls[Any, Any]:
     import pyvista
 
-    def triangulate(cloud: Any) -> Any:
-        return cloud.delaunay_3d(progress_bar=False)
+    def triangulate(cloud: pyvista.PolyData) -> pyvista.UnstructuredGrid:
+        made: pyvista.UnstructuredGrid = cloud.delaunay_3d(progress_bar=False)
+        return made
 
-    def simplices(grid: Any) -> np.ndarray:
-        tetrahedra = grid.cells_dict.get(pyvista.CellType.TETRA)
+    def simplices(grid: pyvista.UnstructuredGrid) -> np.ndarray:
+        tetrahedra = grid.cells_dict.get(np.uint8(pyvista.CellType.TETRA))
         return np.empty((0, 4), np.int64) if tetrahedra is None else np.asarray(tetrahedra)
 
     return Calls(triangulate, simplices, pyvista.PolyData)
 
 
-def _tetgen(threads: int | None) -> Calls:
+def _tetgen(threads: int | None) -> Calls[Any, Any]:
     import tetgen
 
     anything = np.array([[0, 1, 2]], np.int32)  # it asks for facets, and does not look at them
@@ -77,10 +88,10 @@ def _tetgen(threads: int | None) -> Calls:
         made.tetrahedralize(switches="fzQ")  # its Python part crashes if there are no facets to read
         return made
 
-    return Calls(triangulate, lambda made: np.asarray(made.elem))
+    return Calls(triangulate, lambda made: np.asarray(made.elem), np.asarray)
 
 
-def _gmsh(threads: int | None) -> Calls:
+def _gmsh(threads: int | None) -> Calls[Any, Any]:
     import gmsh
 
     gmsh.initialize(interruptible=False)
@@ -90,13 +101,13 @@ def _gmsh(threads: int | None) -> Calls:
     def triangulate(flat: np.ndarray) -> Any:
         return gmsh.algorithm.tetrahedralize(flat)[0]
 
-    def simplices(numbers: Any) -> np.ndarray:
+    def simplices(numbers: npt.ArrayLike) -> np.ndarray:
         return np.asarray(numbers, np.int64).reshape(-1, 4) - 1
 
     return Calls(triangulate, simplices, np.ravel)
 
 
-def _cgal(threads: int | None) -> Calls:
+def _cgal(threads: int | None) -> Calls[Any, Any]:
     from CGAL.CGAL_Kernel import Point_3
     from CGAL.CGAL_Triangulation_3 import Delaunay_triangulation_3
 
@@ -112,10 +123,11 @@ class Peer:
 
     name: str
     module: str
-    load: Callable[[int | None], Calls]
+    load: Callable[[int | None], Calls[Any, Any]]
 
     @property
     def installed(self) -> bool:
+        """Whether it is here."""
         return find_spec(self.module) is not None
 
 

@@ -72,7 +72,7 @@ def table(measured: Sequence[Measured]) -> Table:
     )
     for heading in ("set", "sites", "library"):
         shown.add_column(heading, justify="right" if heading == "sites" else "left", no_wrap=True)
-    for heading in ("seconds", "ratio", "tetrahedra", "10^6 a s", "bytes/site", "right", "runs"):
+    for heading in ("seconds", "ratio", "tetrahedra", "10^6 per s", "bytes/site", "right", "runs"):
         shown.add_column(heading, justify="right", no_wrap=True)
     for rows in by_set(measured):
         shown.add_section()
@@ -124,7 +124,7 @@ def draw(measured: Sequence[Measured]) -> Figure:
         marker = MARKERS[k % len(MARKERS)]
         axes.plot(*zip(*points, strict=True) if points else ([], []), marker, label=library)
     axes.set_yscale("log")
-    axes.set_ylabel("microseconds a site")
+    axes.set_ylabel("microseconds per site")
     # a dollar in the name of a file begins no formula
     names = [f"{rows[0].set_name}\n{rows[0].sites:,}".replace("$", r"\$") for rows in sets]
     axes.set_xticks(range(len(sets)), names)

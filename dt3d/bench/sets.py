@@ -36,7 +36,7 @@ def _clusters(n: int, random: np.random.Generator) -> np.ndarray:
 
 def _sphere(n: int, random: np.random.Generator) -> np.ndarray:
     sites = random.standard_normal((n, 3))
-    return sites / np.linalg.norm(sites, axis=1, keepdims=True)
+    return np.asarray(sites / np.linalg.norm(sites, axis=1, keepdims=True))
 
 
 def _thin_sphere(n: int, random: np.random.Generator) -> np.ndarray:
@@ -54,7 +54,7 @@ def _grid(n: int, random: np.random.Generator) -> np.ndarray:
 
 
 def _slab(n: int, random: np.random.Generator) -> np.ndarray:
-    return random.random((n, 3)) * [1, 1, THIN]
+    return np.asarray(random.random((n, 3)) * [1, 1, THIN])
 
 
 DISTRIBUTIONS: dict[str, Callable[[int, np.random.Generator], np.ndarray]] = {

@@ -16,12 +16,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from . import memory
 from .peers import PEERS
+
+T = TypeVar("T")
 
 WARM = 20_000  # uniform sites at most, and a grid, that a library has triangulated before it is timed
 LOADING = 300.0  # seconds that loading, compiling and warming up may take
@@ -63,11 +65,13 @@ class Worker:
 
     def run(self, limit: float) -> Run | Ended:
         """Triangulate, within so many seconds."""
-        return self._ask("run", limit)
+        answer: Run | Ended = self._ask("run", limit)
+        return answer
 
     def verify(self) -> bool | Ended | None:
         """Whether the last result is the Delaunay triangulation; None where the library does not show it."""
-        return self._ask("verify", None)
+        answer: bool | Ended | None = self._ask("verify", None)
+        return answer
 
     def end(self) -> None:
         """Stop it, whatever it does."""
@@ -75,7 +79,7 @@ class Worker:
         self.process.join()
         self.connection.close()
 
-    def _ask(self, question: Any, limit: float | None) -> Any:
+    def _ask(self, question: object, limit: float | None) -> Any:
         try:
             self.connection.send(question)
             if not self.connection.poll(limit):
@@ -117,7 +121,7 @@ def serve(connection: Connection, peer: str, threads: int | None) -> None:
         return
 
 
-def _or_ended(work: Callable[[], Any]) -> Any:
+def _or_ended(work: Callable[[], T]) -> T | Ended:
     """What the work returns, or what it raises as an answer."""
     try:
         return work()

@@ -42,7 +42,7 @@ def bench(
     file: Annotated[list[Path], Parameter(consume_multiple=True)] = [],  # noqa: B006
     against: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
     threads: Annotated[list[int] | None, Parameter(consume_multiple=True)] = None,
-    rounds: Rounds = Rounds(),  # noqa: B008  frozen
+    rounds: Rounds = Rounds(),
     out: Path = Path("out"),
 ) -> None:
     """Compare dt3d with SciPy and whatever else is installed; print a table, write bench.csv and bench.png.

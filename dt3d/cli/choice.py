@@ -96,7 +96,7 @@ class Choice:
             what = (
                 "--dimension 2 asks"
                 if self.dimension == 2
-                else f"{one_line(source)} has two coordinates a point, which asks"
+                else f"{one_line(source)} has two coordinates per point, which asks"
             )
             msg = (
                 f"{what} for a triangulation in the plane, and {self.only_in_space[0]} goes with points in "
@@ -106,7 +106,7 @@ class Choice:
         if points.shape[1] == 3 and self.only_in_plane:
             msg = (
                 f"--method {self.method} goes with points in the plane, and {one_line(source)} has three "
-                "coordinates a point; say --dimension 2 to triangulate by x and y"
+                "coordinates per point; say --dimension 2 to triangulate by x and y"
             )
             raise ValueError(msg)
 

@@ -31,6 +31,7 @@ class Growth:
         self.left = left
 
     def __call__(self, progress: Progress) -> None:
+        """Print the line of one iteration."""
         if progress.iteration == 1:
             self.console.print(f"[dim]iteration   tetrahedra {self.left:>12s}   seconds[/]")
         self.console.print(

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import numpy as np
 from cyclopts import Parameter
 
 import dt3d
 
+from .._options import Method, PlaneMethod
 from .._paths import check_apart
 from .._status import Printer, one_line
 from .choice import Choice
@@ -91,7 +92,7 @@ def in_space(
     with console.status("triangulating (the first iteration includes compilation)"):
         return dt3d.Delaunay(
             points,
-            method=choice.method,
+            method=cast(Method, choice.method),  # checked with the points
             robustness=choice.robustness,
             machine=machine,
             threads=choice.threads,
@@ -106,4 +107,6 @@ def in_plane(console: Printer, points: np.ndarray, choice: Choice) -> Delaunay:
     from .. import threaded2d
 
     with console.status("triangulating in the plane (the first time includes compilation)"):
-        return threaded2d.Delaunay(points, method=choice.method, threads=choice.threads, seed=choice.seed)
+        return threaded2d.Delaunay(
+            points, method=cast(PlaneMethod, choice.method), threads=choice.threads, seed=choice.seed
+        )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
 
 from .balance import balance
 from .figure2 import figure2
@@ -16,17 +15,18 @@ from .table2 import table2
 from .table3 import table3
 
 
-def _kohout(name: str, summary: str) -> Callable[..., Any]:
+def _kohout(name: str, summary: str) -> Callable[..., object]:
     """An experiment that loads when it is run: numba takes a second to load."""
 
-    def run(*args: Any, **options: Any) -> Any:
-        return getattr(import_module(".kohout", __package__), name)(*args, **options)
+    def run(*args: object, **options: object) -> object:
+        function: Callable[..., object] = getattr(import_module(".kohout", __package__), name)
+        return function(*args, **options)
 
     run.__doc__ = summary
     return run
 
 
-EXPERIMENTS: dict[str, Callable[..., Any]] = {
+EXPERIMENTS: dict[str, Callable[..., object]] = {
     "table1": table1,
     "table2": table2,
     "table3": table3,

@@ -95,15 +95,20 @@ def work(points: np.ndarray, simplices: np.ndarray) -> Work:
     centre = a + np.linalg.solve(edges, (edges**2).sum(axis=2)[..., None] / 2)[..., 0]
     radius = np.linalg.norm(centre - a, axis=1)
     normal = np.cross(b - a, c - a)
-    found = [
-        _cells_of(k, *ball, low, side, shape)
-        for k, ball in enumerate(zip(a, centre, radius, normal, strict=True))
-    ]
+    found = [_cells_of(*ball, low, side, shape) for ball in zip(a, centre, radius, normal, strict=True)]
     face = np.concatenate([np.full(len(f), k) for k, f in enumerate(found)])
     return Work(face, counts[np.concatenate(found)], len(simplices))
 
 
-def _cells_of(k, a, centre, radius, normal, low, side, shape) -> np.ndarray:  # type: ignore[no-untyped-def]
+def _cells_of(
+    a: np.ndarray,
+    centre: np.ndarray,
+    radius: float,
+    normal: np.ndarray,
+    low: np.ndarray,
+    side: float,
+    shape: np.ndarray,
+) -> np.ndarray:
     """Numbers of the cells that meet a ball and the half-space above a face."""
     first = np.clip((centre - radius - low) // side, 0, shape - 1).astype(int)
     last = np.clip((centre + radius - low) // side, 0, shape - 1).astype(int)
@@ -113,7 +118,7 @@ def _cells_of(k, a, centre, radius, normal, low, side, shape) -> np.ndarray:  # 
     gap = np.maximum(np.maximum(corner - centre, centre - corner - side), 0)
     highest = ((corner - a) * normal).sum(axis=1) + side * np.maximum(normal, 0).sum()
     meets = ((gap**2).sum(axis=1) <= radius**2) & (highest >= 0)
-    return np.ravel_multi_index(index[meets].T, shape)
+    return np.asarray(np.ravel_multi_index(tuple(index[meets].T), tuple(shape)))
 
 
 def shares(todo: Work, processors: int = PROCESSORS) -> list[Share]:
@@ -141,7 +146,7 @@ def balance(
     table = new_table(
         f"{sites} sites, uniform cells, {PROCESSORS} processors: time over that of perfect balance",
         ("sites", "scheme"),
-        ("each by itself", "in lock-step", "sites an expansion"),
+        ("each by itself", "in lock-step", "sites per expansion"),
     )
     result, lines, examined = {}, [], {}
     for k, (name, points) in enumerate(
@@ -167,7 +172,7 @@ def balance(
     axes[0].legend(fontsize=8)
     console.print(table)
     for name, searched in examined.items():
-        console.print(f"{name}: the search itself examined {searched:.1f} sites an expansion.")
+        console.print(f"{name}: the search itself examined {searched:.1f} sites per expansion.")
     console.print(
         "Requests and warrants share out the sites of uniform cells evenly also where sites cluster; "
         "what they cannot mend is the work itself, since a few cells hold most sites. Where cells fill "

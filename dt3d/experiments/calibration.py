@@ -1,5 +1,4 @@
-"""The CM-5 model's calibration: its three constants without a source, from Table 1's random sets on 32
-nodes."""
+"""The CM-5 model's calibration: its three constants without a source, from Table 1's random sets."""
 
 from __future__ import annotations
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -16,7 +17,7 @@ from .._topology import OUTWARD
 from ..delaunay import Delaunay
 from ..extrapolation import normalise
 from ..extrapolation.points import Point
-from ..extrapolation.signed_distance import frame, signed_distance
+from ..extrapolation.signed_distance import Frame, frame, signed_distance
 from . import calibration
 from ._output import new_table, panels, print_model, publish
 from .paper import BREAK_EVEN, PROCESSORS, RANDOM
@@ -30,13 +31,13 @@ MOST_BY_BRUTE_FORCE = 2000  # sites; its time grows with their square
 
 
 class Nearest(NamedTuple):
-    """The best site so far of a face."""
+    """The best site so far of a face: on a machine a vector of them, for a function of `map` one."""
 
     distance: Any
     site: Any
 
 
-def _examine(face: Any, best: Nearest, site: Point, k: Any) -> Nearest:
+def _examine(face: Frame, best: Nearest, site: Point, k: jax.Array) -> Nearest:
     distance = signed_distance(face, site)
     better = distance < best.distance
     return Nearest(jnp.where(better, distance, best.distance), jnp.where(better, k, best.site))
@@ -50,7 +51,10 @@ def exhaustive(machine: sv.Machine, sites: np.ndarray, faces: np.ndarray) -> np.
 
     Parameters
     ----------
+    machine : scanvec.Machine
+        What searches.
     sites : float64 (n, 3)
+        All that are tried.
     faces : int (m, 3)
         Oriented with the normal (b-a) x (c-a) towards the side that is searched.
     """
@@ -59,7 +63,7 @@ def exhaustive(machine: sv.Machine, sites: np.ndarray, faces: np.ndarray) -> np.
     best = Nearest(machine.full(len(faces), np.inf, np.float64), machine.full(len(faces), -1, np.int32))
     for k, site in enumerate(sites):
         best = machine.map(_examine, frames, best, Point(*site), np.int32(k))
-    return best.site.to_numpy()
+    return np.asarray(best.site.to_numpy())
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ def break_evens_without_a_row(sizes: list[Size]) -> list[float | None]:
 
 def _ratio(size: Size, model: sv.Model) -> float:
     assert size.brute_force is not None
-    return np.log(size.brute_force.under(model).seconds / size.bucketing.under(model).seconds)
+    return float(np.log(size.brute_force.under(model).seconds / size.bucketing.under(model).seconds))
 
 
 def figure2(
@@ -146,11 +150,11 @@ def figure2(
         (),
         ("sites", "bucketing, paper", "bucketing, model", "brute force, model"),
     )
-    lines: list[list[Any]] = []
+    lines: list[Line] = []
     for s in sizes:
         brute = None if s.brute_force is None else s.brute_force.under(model).seconds
-        lines.append([s.sites, s.paper, s.bucketing.under(model).seconds, "" if brute is None else brute])
-        table.add_row(*(f"{x:.2f}" if isinstance(x, float) else str(x) for x in lines[-1]))
+        lines.append(Line(s.sites, s.paper, s.bucketing.under(model).seconds, brute))
+        table.add_row(str(s.sites), *("" if x is None else f"{x:.2f}" for x in lines[-1][1:]))
     console.print(table)
     print_model(console, model)
     crossing = break_even(sizes, model)
@@ -162,19 +166,27 @@ def figure2(
             f"With any one row of Table 1 left out of the calibration it would be: {others}. They differ "
             "since brute force only computes: it hangs on what an operation costs, which 32 nodes leave open."
         )
-    header = ["sites", "paper_seconds", "model_seconds", "brute_force_seconds"]
-    publish(console, out, "figure2", header, lines, _draw(lines, crossing))
+    publish(console, out, "figure2", Line._fields, lines, _draw(lines, crossing))
     return sizes, crossing
 
 
-def _draw(lines: list[list[Any]], crossing: float | None) -> Figure:
+class Line(NamedTuple):
+    """A row of figure2.csv: one size of random sets."""
+
+    sites: int
+    paper_seconds: float
+    model_seconds: float
+    brute_force_seconds: float | None
+
+
+def _draw(lines: list[Line], crossing: float | None) -> Figure:
     figure, (ax,) = panels(1, 6.0)
-    n = [line[0] for line in lines]
-    ax.loglog(n, [line[1] for line in lines], "s--", label="bucketing, paper")
-    ax.loglog(n, [line[2] for line in lines], "o-", label="bucketing, model")
-    slow = [line for line in lines if line[3] != ""]
-    ax.loglog([line[0] for line in slow], [line[3] for line in slow], "^-", label="brute force, model")
-    ax.loglog(n, [lines[0][1] * k / n[0] for k in n], ":", color="0.6", label="O(n)")
+    n = [line.sites for line in lines]
+    ax.loglog(n, [line.paper_seconds for line in lines], "s--", label="bucketing, paper")
+    ax.loglog(n, [line.model_seconds for line in lines], "o-", label="bucketing, model")
+    slow = [(line.sites, seconds) for line in lines if (seconds := line.brute_force_seconds) is not None]
+    ax.loglog(*zip(*slow, strict=True) if slow else ([], []), "^-", label="brute force, model")
+    ax.loglog(n, [lines[0].paper_seconds * k / n[0] for k in n], ":", color="0.6", label="O(n)")
     ax.axvline(BREAK_EVEN, color="0.8", label="break-even, paper (about)")
     if crossing is not None:
         ax.axvline(crossing, color="0.4", linestyle="--", label="break-even, model")

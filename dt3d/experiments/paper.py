@@ -25,6 +25,7 @@ class PaperRow:
 
     @property
     def per_tetrahedron(self) -> float:
+        """Face expansions per tetrahedron."""
         return self.face_expansions / self.tetrahedra
 
 

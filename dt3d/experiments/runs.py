@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 import scanvec as sv
 
@@ -51,10 +51,11 @@ class Measured:
 
     @property
     def per_tetrahedron(self) -> float:
+        """Face expansions per tetrahedron."""
         return self.face_expansions / self.tetrahedra
 
 
-def measure(points: np.ndarray, machine: sv.Machine, dtype: Any = None) -> Measured:
+def measure(points: np.ndarray, machine: sv.Machine, dtype: npt.DTypeLike | None = None) -> Measured:
     """One run of the paper's method on a machine."""
     tri = Delaunay(points, method="extrapolation", robustness="perturb", machine=machine, dtype=dtype)
     s = tri.stats
@@ -84,7 +85,8 @@ def points_of(name: str, seed: int = SEED) -> np.ndarray:
     """A set by its name in the paper: "rand.125", "cube", ..."""
     if name.startswith("rand."):
         return sets.rand(int(name.removeprefix("rand.")), seed)
-    return getattr(sets, name)()
+    points: np.ndarray = getattr(sets, name)()
+    return points
 
 
 def paper_row(name: str) -> PaperRow:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,6 +31,7 @@ class Row:
 
     @property
     def random(self) -> bool:
+        """Whether the sites are random, so that other sets of their kind can be measured."""
         return self.paper in RANDOM
 
     def spread(self, column: str, digits: int) -> str:
@@ -93,12 +94,12 @@ def _print(measured: list[Row], console: Console, seed: int) -> None:
     table = new_table(
         f"Teng et al. 1993, Table 1: paper / ours ({PROCESSORS} simulated processors, float64)",
         ("set",),
-        ("tetrahedra", "diff %", "depth", "expansions", "a tetrahedron", "searched"),
+        ("tetrahedra", "diff %", "depth", "expansions", "per tetrahedron", "searched"),
     )
     spread = new_table(
         f"Random sets of {len(measured[0].others)} and fewer other seeds: mean ± deviation",
         ("set",),
-        ("sets", "tetrahedra", "depth", "expansions a tetrahedron", "searched"),
+        ("sets", "tetrahedra", "depth", "expansions per tetrahedron", "searched"),
     )
     for row in measured:
         p, o = row.paper, row.ours
@@ -158,12 +159,12 @@ def _times(measured: list[Row], console: Console) -> dict[str, float]:
     return seconds
 
 
-def _lines(measured: list[Row], seconds: dict[str, float]) -> tuple[list[str], list[list[Any]]]:
+def _lines(measured: list[Row], seconds: dict[str, float]) -> tuple[list[str], list[list[object]]]:
     """The header and the rows of the CSV."""
     columns = ("tetrahedra", "depth", "face_expansions", "searched")
     names = [f"{who}_{c}" for c in columns for who in ("paper", "ours")]
     header = ["set", "sites", *names, "paper_seconds", "model_seconds", "wall_seconds"]
-    lines: list[list[Any]] = []
+    lines: list[list[object]] = []
     for row in measured:
         values = [getattr(who, c) for c in columns for who in (row.paper, row.ours)]
         times = [row.paper.seconds, seconds.get(row.paper.name, ""), row.ours.seconds]
@@ -175,10 +176,10 @@ def _lines(measured: list[Row], seconds: dict[str, float]) -> tuple[list[str], l
 def _draw(measured: list[Row], seconds: dict[str, float]) -> Figure:
     random = [r for r in measured if r.random]
     n = [r.paper.sites for r in random]
-    columns: tuple[tuple[str, Callable[[Any, int], float]], ...] = (
-        ("tetrahedra a site", lambda m, sites: m.tetrahedra / sites),
-        ("face expansions a tetrahedron", lambda m, sites: m.per_tetrahedron),
-        ("sites searched an expansion", lambda m, sites: m.searched),
+    columns: tuple[tuple[str, Callable[[PaperRow | Measured, int], float]], ...] = (
+        ("tetrahedra per site", lambda m, sites: m.tetrahedra / sites),
+        ("face expansions per tetrahedron", lambda m, sites: m.per_tetrahedron),
+        ("sites searched per expansion", lambda m, sites: m.searched),
     )
     figure, axes = panels(4, 4.0)
     for ax, (title, value) in zip(axes, columns, strict=False):

@@ -45,10 +45,12 @@ class Cell:
 
     @property
     def time_off(self) -> float:
+        """Relative deviation of the time."""
         return off(self.predicted, self.paper)
 
     @property
     def speedup_off(self) -> float:
+        """Relative deviation of the speed-up."""
         return off(self.predicted_speedup, self.paper_speedup)
 
     @property

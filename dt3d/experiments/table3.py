@@ -44,9 +44,11 @@ class Outcome:
 
     @property
     def finished(self) -> bool:
+        """Whether there is a triangulation."""
         return self.tetrahedra is not None
 
     def __str__(self) -> str:
+        """The inconsistencies, as the table has them."""
         return str(self.inconsistencies) if self.finished else TOO_MANY
 
 
@@ -115,7 +117,7 @@ def table3(
         f"undecided; {_power(np.float32)}, dt3d's choice for single precision, is the larger perturbation."
     )
     header = ["set", "paper_single", *(f"{m}_{c}" for m in MODES for c in ("tetrahedra", "inconsistencies"))]
-    lines = [
+    lines: list[list[object]] = [
         [name, TABLE3[name]]
         + [x for o in by_mode.values() for x in (o.tetrahedra if o.finished else "", str(o))]
         for name, by_mode in outcomes.items()

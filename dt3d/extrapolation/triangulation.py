@@ -109,7 +109,7 @@ def _require_memory(n: int) -> None:
 def _check_span(sites: np.ndarray) -> None:
     """Raise DegenerateInputError unless distinct sites (n, 3) span a volume, however thin; exactly."""
     if affine_dimension(normalise(sites), CLEARLY_THICK) < 3:
-        from ..insertion.first import first_tetrahedron
+        from .._first_tetrahedron import first_tetrahedron
 
         first_tetrahedron(sites, 0)
 

@@ -1,5 +1,5 @@
 """Exact insertion in 3D on a CPU."""
 
-from .loop import Outcome, triangulate
+from .driver import Outcome, triangulate
 
 __all__ = ["Outcome", "triangulate"]

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .._numba.kernel_cache import cached_njit
-from .layout import DEAD
+from .._numba.unowned import unowned
+from .mesh import is_finite, neighbor, tetrahedron, vertex
 
 
 @cached_njit(nogil=True)
 def count_finite(mesh, begin, end):
     """How many of the slots begin .. end-1 hold tetrahedra that are not ghosts."""
+    mesh = unowned(mesh)
     m = 0
     for t in range(begin, end):
-        m += max(max(mesh[8 * t], mesh[8 * t + 1]), max(mesh[8 * t + 2], mesh[8 * t + 3])) < DEAD
+        m += is_finite(mesh, t)
     return m
 
 
 @cached_njit(nogil=True)
 def number_finite(mesh, begin, end, first, number):
     """Number them from ``first`` on; -1 for the others."""
+    mesh = unowned(mesh)
     for t in range(begin, end):
-        if max(max(mesh[8 * t], mesh[8 * t + 1]), max(mesh[8 * t + 2], mesh[8 * t + 3])) < DEAD:
+        if is_finite(mesh, t):
             number[t] = first
             first += 1
         else:
@@ -32,9 +33,10 @@ def number_finite(mesh, begin, end, first, number):
 def write_finite(mesh, begin, end, number, original, simplices, neighbors):
     """Rows of the result: vertices by their indices in the input, neighbours by number, -1 beyond the
     hull."""
+    mesh = unowned(mesh)
     for t in range(begin, end):
         s = number[t]
         if s >= 0:
             for k in range(4):
-                simplices[s, k] = original[mesh[8 * t + k]]
-                neighbors[s, k] = number[mesh[8 * t + 4 + k] >> np.uint32(2)]
+                simplices[s, k] = original[vertex(mesh, t, k)]
+                neighbors[s, k] = number[tetrahedron(neighbor(mesh, t, k))]

@@ -16,38 +16,45 @@ does.
 
 from __future__ import annotations
 
-import numba
+from typing import NamedTuple
 
-from .._numba.kernel_cache import cached_njit
-from .layout import INFINITE
+from .mesh import INFINITE, accessor, vertex
 
 
-@cached_njit(inline="always")
-def owns(v, low, length, n):
-    """Whether site v is among the ``length`` sites from ``low`` on, in the cyclic order of n sites."""
-    place = numba.int64(v) - low
+class Part(NamedTuple):
+    """The sites that a thread owns: ``length`` from ``first`` on, in the cyclic order of all ``sites``."""
+
+    first: int
+    length: int
+    sites: int
+
+
+@accessor
+def owns(part, v):
+    """Whether site v is in a part."""
+    place = v - part.first
     if place < 0:
-        place += n
-    return place < length
+        place += part.sites
+    return place < part.length
 
 
-@cached_njit(inline="always")
-def owns_all(mesh, t, low, length, n):
-    """Whether all finite vertices of tetrahedron t are among those sites."""
+@accessor
+def owns_all(mesh, t, part):
+    """Whether all finite vertices of tetrahedron t are in a part."""
     all_owned = True
     for k in range(4):
-        v = mesh[8 * t + k]
-        if v != INFINITE and not owns(v, low, length, n):
+        v = vertex(mesh, t, k)
+        if v != INFINITE and not owns(part, v):
             all_owned = False
     return all_owned
 
 
-@cached_njit(inline="always")
-def owns_one(mesh, t, low, length, n):
-    """Whether some finite vertex of tetrahedron t is among those sites."""
-    one_owned = False
+@accessor
+def owns_some(mesh, t, part):
+    """Whether some finite vertex of tetrahedron t is in a part."""
+    some_owned = False
     for k in range(4):
-        v = mesh[8 * t + k]
-        if v != INFINITE and owns(v, low, length, n):
-            one_owned = True
-    return one_owned
+        v = vertex(mesh, t, k)
+        if v != INFINITE and owns(part, v):
+            some_owned = True
+    return some_owned

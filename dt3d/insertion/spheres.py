@@ -39,21 +39,21 @@ import numpy as np
 
 from .._numba.kernel_cache import cached_njit
 from ..predicates.filtered import orient3d
+from .mesh import radius_above, set_center, set_radius
 
 U = 2.0**-53
-LEAST = 2.0**-110  # of m^2 and of what becomes a float32, which has its full precision above 2^-126
-MOST = 2.0**80  # of a radius squared
-SLACK = 2.0**-21
+LEAST_SQUARE = 2.0**-110  # of m^2 and of what becomes a float32, which has its full precision above 2^-126
+GREATEST_SQUARE = 2.0**80  # of a radius
+RADIUS_MARGIN = 2.0**-21
 
 
 @cached_njit(error_model="numpy", inline="always")
-def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, spheres, radii):
-    """Store the spheres of tetrahedra (site, p[f], q[f], r[f]) in slots[f], for f below ``facets``.
-
-    ``x``, ``y``, ``z``, ``squared``: the vertices relative to the site, NaN for the infinite one. Returns for
-    how many nothing is proved.
-    """
-    open_ones = 0
+def round_spheres(mesh, site, scratch, facets, reach):
+    """Store the spheres of the tetrahedra to the first ``facets`` facets; returns for how many nothing is
+    proved."""
+    p, q, r, slots = scratch.p, scratch.q, scratch.r, scratch.slots
+    x, y, z, squared = scratch.x, scratch.y, scratch.z, scratch.squared
+    unproved = 0
     for f in range(facets):
         i, j, k = p[f], q[f], r[f]
         px, py, pz, p2 = x[i], y[i], z[i], squared[i]
@@ -75,26 +75,25 @@ def round_spheres(x, y, z, squared, p, q, r, slots, facets, sx, sy, sz, reach, s
         error = ((160.0 * U) * (m2 * m2) + radius * d_error) / rest + (8.0 * U) * radius + (4.0 * U) * reach
         low = max(radius - 2.0 * error, 0.0)
         high = radius + 2.0 * error
-        t = slots[f]
-        spheres[4 * t] = sx + ux
-        spheres[4 * t + 1] = sy + uy
-        spheres[4 * t + 2] = sz + uz
-        good = (rest > d_error) & (m2 > LEAST) & (u2 < MOST)
-        radii[8 * t + 6] = (
-            np.float32(low * low * (1.0 - SLACK)) if good & (low * low > LEAST) else np.float32(-1.0)
-        )
-        radii[8 * t + 7] = np.float32(high * high * (1.0 + SLACK)) if good else np.float32(np.inf)
-        open_ones += not good
-    return open_ones
+        t = numba.int64(slots[f])
+        set_center(mesh, t, site.x + ux, site.y + uy, site.z + uz)
+        good = (rest > d_error) & (m2 > LEAST_SQUARE) & (u2 < GREATEST_SQUARE)
+        below = low * low * (1.0 - RADIUS_MARGIN) if good & (low * low > LEAST_SQUARE) else -1.0
+        above = high * high * (1.0 + RADIUS_MARGIN) if good else np.inf
+        set_radius(mesh, t, np.float32(below), np.float32(above))
+        unproved += not good
+    return unproved
 
 
-@cached_njit
-def flat(points, radii, site, p, q, r, near, slots, facets, w):
+@cached_njit(error_model="numpy", inline="always")
+def flat(mesh, v, scratch, facets, w):
     """Whether one of these tetrahedra that have no sphere and no infinite vertex is not positive; exact."""
+    vertices, found = scratch.vertices, False
     for f in range(facets):
-        i, j, k = p[f], q[f], r[f]
-        if radii[8 * numba.int64(slots[f]) + 7] == np.inf and i > 0 and j > 0 and k > 0:
-            a, b, c = numba.int64(near[i]), numba.int64(near[j]), numba.int64(near[k])
-            if orient3d(points, site, a, b, c, w) <= 0:
-                return True
-    return False
+        i, j, k = scratch.p[f], scratch.q[f], scratch.r[f]
+        if radius_above(mesh, numba.int64(scratch.slots[f])) == np.inf and i > 0 and j > 0 and k > 0:
+            a, b, c = numba.int64(vertices[i]), numba.int64(vertices[j]), numba.int64(vertices[k])
+            if orient3d(mesh.points, v, a, b, c, w) <= 0:
+                found = True
+                break
+    return found

@@ -36,6 +36,8 @@ def read_in_child(script: str, path: Path) -> np.ndarray:
     script : str
         Its name. It is called with the path, a folder, `sys.path` as JSON, bytes and seconds. It leaves
         array.npy in the folder, or report.json, which is what is wrong with the file.
+    path : Path
+        The file.
 
     Raises
     ------
@@ -72,4 +74,4 @@ def read_in_child(script: str, path: Path) -> np.ndarray:
             need = f"more memory than the {gigabytes(room)} that are available"
             msg = f"{path} is damaged, or needs {need}: what reads it ended with status {status}"
             raise ValueError(msg)
-        return np.load(array)
+        return np.asarray(np.load(array))

@@ -15,7 +15,8 @@ def as_float64(array: np.ndarray, what: str) -> np.ndarray:
 
     Parameters
     ----------
-    array : array of numbers
+    array : ndarray
+        Numbers.
     what : str
         The path, and the array's name if it has one.
 
@@ -30,7 +31,7 @@ def as_float64(array: np.ndarray, what: str) -> np.ndarray:
         if array.dtype.kind not in "iuf":
             msg = f"{what}: expected real numbers, found {array.dtype}"
             raise ValueError(msg) from error
-        # the words after the semicolon are for those who hold the array in their hands
+        # the words after the semicolon are for callers that have the array
         msg = f"{str(error).partition(';')[0]}; subtract an offset or round before the file is written"
         raise ValueError(msg) from error
 

@@ -152,7 +152,7 @@ def _nodes_4(cursor: Cursor) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _counts(cursor: Cursor, count: int, what: str) -> list[int]:
-    counts = cursor.array(count, "u8", what).tolist()
+    counts: list[int] = cursor.array(count, "u8", what).tolist()
     # the first two are of things of which each takes a byte at least; tags may be any numbers
     if any(not 0 <= number <= len(cursor.data) for number in counts[:2]):
         msg = f"{cursor.path} is damaged: {what} are {counts[:2]} in {len(cursor.data)} bytes"

@@ -31,8 +31,12 @@ def image(
 
     Parameters
     ----------
+    path : Path
+        What messages call the file.
     extent : six int
         The first and last index on each axis.
+    origin, spacing : three float
+        Where index 0 is, and how far apart the points are.
     turn : float64 (3, 3)
         Columns are the directions of the axes.
     """
@@ -40,7 +44,9 @@ def image(
     steps = [np.arange(extent[2 * k], extent[2 * k + 1] + 1) for k in range(3)]
     if (turn == np.eye(3)).all():
         return lattice(path, [origin[k] + spacing[k] * steps[k] for k in range(3)])
-    return np.asarray(origin) + lattice(path, [spacing[k] * steps[k] for k in range(3)]) @ turn.T
+    offsets = lattice(path, [spacing[k] * steps[k] for k in range(3)])
+    points: np.ndarray = np.asarray(origin) + offsets @ turn.T
+    return points
 
 
 def check_room(path: Path, n: int, what: str) -> None:

@@ -8,6 +8,7 @@ import sys
 
 
 def main(path: str, folder: str, search: str, memory: str, seconds: str) -> None:
+    """Write the points of ``path`` to array.npy in the folder, or what is wrong with it to report.json."""
     limit(int(memory), int(seconds))
     sys.path[:] = json.loads(search)
     import laspy

@@ -121,7 +121,8 @@ def tetrahedra_of(path: Path, found: dict[str, np.ndarray]) -> Mesh:
     iteration = np.ones(len(simplices)) if iteration is None else iteration
     iteration = _whole(path, "iteration", iteration)
     if iteration.shape != (len(simplices),):
-        msg = f"{path}: expected one iteration a tetrahedron, {len(simplices)}; found shape {iteration.shape}"
+        n = len(simplices)
+        msg = f"{path}: expected one iteration per tetrahedron, {n}; found shape {iteration.shape}"
         raise ValueError(msg)
     if (np.abs(iteration) >= 2**31).any():
         msg = f"{path}: iterations must be less than 2^31"

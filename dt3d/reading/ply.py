@@ -7,6 +7,7 @@ asks for before it looks, is slow in text, and is under the GPL.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -186,7 +187,7 @@ class _Binary:
 
     def take(self, element: Element, lengths: list[int], count: int) -> dict[str, np.ndarray] | None:
         """The scalars of so many rows, if all have lists of these lengths; otherwise None."""
-        fields: list[tuple] = []
+        fields: list[tuple[object, ...]] = []
         for k, ((_, kind, is_list), length) in enumerate(zip(element.properties, lengths, strict=True)):
             if is_list:
                 fields.append((f"{k} length", self.order + is_list))
@@ -244,7 +245,7 @@ def _read(body: _Text | _Binary, element: Element) -> dict[str, np.ndarray]:
     return {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
 
 
-def _length(path: Path, element: Element, found: list) -> int:
+def _length(path: Path, element: Element, found: Sequence[bytes | int]) -> int:
     """A list's length, from the word or number in ``found``."""
     try:
         length = int(found[0])

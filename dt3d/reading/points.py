@@ -51,6 +51,7 @@ def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.
     Parameters
     ----------
     path : str or Path
+        The file, whose extension says what it is.
     dimension : 2, 3 or None
         3 asks for three coordinates. 2 asks for two, and takes x and y of a file that has three. None takes
         two or three, as the file has them.

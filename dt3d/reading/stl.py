@@ -79,7 +79,7 @@ def _text(path: Path, data: bytes) -> np.ndarray:
 def _vertex(path: Path, number: int, words: list[str]) -> list[float]:
     try:
         _, x, y, z = (word.encode() for word in words)
-        return numbers([x, y, z], False, "corners").tolist()
+        return [float(number) for number in numbers([x, y, z], False, "corners")]
     except ValueError:
         msg = f"{path}, line {number}: expected 'vertex x y z', found {' '.join(words)[:60]!r}"
         raise ValueError(msg) from None

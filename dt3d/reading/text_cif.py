@@ -5,13 +5,17 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .._optional import optional
 from .text_cells import number
 from .text_lines import read_text
+
+if TYPE_CHECKING:
+    from gemmi import cif
 
 _UNCERTAINTY = re.compile(r"\([0-9]+\)$")
 
@@ -60,7 +64,7 @@ def read_cif(path: Path) -> np.ndarray:
     return _cartesian(path, gemmi, block, points) if fractions else points
 
 
-def _tags(block: Any) -> tuple[list[str], bool] | None:
+def _tags(block: cif.Block) -> tuple[list[str], bool] | None:
     """The names of the coordinates in a block, and whether they are fractions of the cell."""
     for prefix, fractions in [
         ("_atom_site.Cartn_", False),
@@ -73,7 +77,7 @@ def _tags(block: Any) -> tuple[list[str], bool] | None:
     return None
 
 
-def _cartesian(path: Path, gemmi: Any, block: Any, fractions: np.ndarray) -> np.ndarray:
+def _cartesian(path: Path, gemmi: ModuleType, block: cif.Block, fractions: np.ndarray) -> np.ndarray:
     separator = "." if block.find_value("_cell.length_a") else "_"
     names = [f"_cell{separator}{name}" for name in ("length_a", "length_b", "length_c")]
     names += [f"_cell{separator}angle_{name}" for name in ("alpha", "beta", "gamma")]
@@ -83,4 +87,5 @@ def _cartesian(path: Path, gemmi: Any, block: Any, fractions: np.ndarray) -> np.
             msg = f"{path} has fractions of the unit cell, but its {name} is missing or not a size"
             raise ValueError(msg)
     cell = gemmi.UnitCell(*sizes)
-    return fractions @ np.array(cell.orth.mat.tolist()).T
+    cartesian: np.ndarray = fractions @ np.array(cell.orth.mat.tolist()).T
+    return cartesian

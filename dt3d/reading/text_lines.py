@@ -31,9 +31,11 @@ class Lines:
     numbers: Sequence[int]  # of the lines in the file; the first is 1
 
     def __len__(self) -> int:
+        """How many lines."""
         return len(self.text)
 
     def __getitem__(self, part: slice) -> Lines:
+        """Some of the lines, with their numbers in the file."""
         return Lines(self.path, self.text[part], self.numbers[part])
 
     def error(self, k: int, sentence: str, column: int | None = None) -> ValueError:

@@ -26,6 +26,7 @@ def numbers(
     width : int
         Cells that each row must have.
     decimal : "." or ","
+        What parts whole numbers from fractions.
 
     Returns
     -------

@@ -57,6 +57,7 @@ class Arrays:
         Parameters
         ----------
         array : Element
+            The DataArray.
         count : int
             How many numbers it must hold.
 
@@ -135,12 +136,12 @@ class Arrays:
         return b"".join(parts)
 
     def _sizes(self, header: bytes) -> list[int]:
-        return np.frombuffer(header, self.size).tolist()
+        return [int(size) for size in np.frombuffer(header, self.size)]
 
     def _decompress(self, block: bytes, size: int) -> bytes:
         """One block, which must be whole and make so many bytes and no more."""
         if self.compressor == "vtkLZ4DataCompressor":
-            data = optional("lz4.block", "this file").decompress(block, uncompressed_size=size)
+            data: bytes = optional("lz4.block", "this file").decompress(block, uncompressed_size=size)
         else:
             if self.compressor not in COMPRESSORS:
                 known = ", ".join(["vtkLZ4DataCompressor", *COMPRESSORS])

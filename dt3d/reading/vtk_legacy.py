@@ -20,7 +20,7 @@ TYPES = {
 }  # fmt: skip
 
 ATTRIBUTES = {"vectors": 3, "normals": 3, "tensors": 9, "tensors6": 6, "global_ids": 1, "pedigree_ids": 1}
-"""Numbers a point or cell, of the attributes that are written ``KEYWORD name type``."""
+"""Numbers per point or cell, of the attributes that are written ``KEYWORD name type``."""
 
 CELL_DATA = "cell data "
 """Stands before the names of arrays of the cells."""
@@ -138,7 +138,7 @@ def _attribute(cursor: Cursor, word: str, found: dict[str, np.ndarray], of: tupl
         _typed(cursor, n * cursor.count("a dimension"), word)
     elif word == "scalars":
         name = cursor.word("a name")
-        dtype, components = (cursor.line().split() + ["1"])[:2]
+        dtype, components = [*cursor.line().split(), "1"][:2]
         if (look := cursor.look()) is not None and look[1].upper() == b"LOOKUP_TABLE":
             cursor.word("LOOKUP_TABLE"), cursor.line()
         if dtype.lower() not in TYPES or components not in "1234":

@@ -1,5 +1,4 @@
-"""Delaunay triangulation in the plane by several threads on shared memory (Kohout, Kolingerova, Zara
-2004)."""
+"""Delaunay triangulation in the plane by threads on shared memory (Kohout, Kolingerova, Zara 2004)."""
 
 from .._errors import DegenerateInputError
 from .delaunay import Delaunay

@@ -1,4 +1,5 @@
-"""The circum-circle method: geometry tells who has to wait (Kohout et al. 2004, section 3.4, Algorithm 3).
+"""The circum-circle method: geometry tells which thread waits (Kohout et al. 2004, section 3.4,
+Algorithm 3).
 
 An insertion changes only triangles that are in conflict with its site, or have it as a vertex. Every thread
 publishes its site in a pool before it changes anything. It subdivides or flips when no other site of the pool
@@ -10,75 +11,66 @@ Two that see each other would wait for ever. So a thread looks, in a short criti
 it would wait for waits for it, through others perhaps. Then it goes on, since those cannot, and flags their
 exceptional state: after they wake they locate again, or, if they were legalising, give up their remaining
 swaps. The paper makes up for those in the end. Here all threads pause as soon as their insertions have ended
-(`suspects`, `correction`): what is left open spreads, on some sets to quadratically many swaps.
+(`illegal_edges`, `correction`): what is left open spreads, on some sets to quadratically many swaps.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
+
 from .._errors import InternalError
-from .._numba.atomics import TURNS, cycles, load, load_acquire, wait_a_little
+from .._numba.atomics import load, load_acquire
 from .._numba.kernel_cache import cached_njit
-from .._numba.unowned import unowned
 from ..predicates.filtered2d import orient2d
-from .dag import descend
+from . import columns as c
+from .columns import side, triangle
+from .configuration import Options
 from .flips import flip, illegal, subdivide
-from .illegal_edges import note_star
-from .in_place.walk import walk_history
-from .lookahead.located import AT_ONCE, locate_one, prepare
-from .mesh import (
-    ACCESSES,
-    AT,
-    CHANGE_CYCLES,
-    CHILD,
-    GIVEN_UP,
-    HINT,
-    IN_HAND,
-    INSERTED,
-    LAST,
-    LOCATION_CYCLES,
-    NEIGHBOR,
-    NODE,
-    OPEN,
-    PHASE,
-    SITE,
-    SUSPECT,
-    VISITED,
-    WAIT_CYCLES,
-    WAITS,
-    stumble,
-)
-from .patience import GIVING_WAY, NAP, STEP, strive
+from .illegal_edges import mark_star, no_marks
+from .location import DAG, WALK, find_again
+from .lookahead.located import MOST_LOCATED, Lookahead, locate_ahead, next_located, nothing_located
+from .mesh import Store
 from .pool import (
-    BEGIN,
     EXCEPTIONAL,
-    LEGALISE,
     NOBODY,
-    SUBDIVIDE,
     blocker_of,
     clear_exception,
+    empty_pool,
     publish,
     retire,
     still_waits,
     wait_for,
-)
-from .queue import ITEM_NODE, ITEM_SITE
-from .steps import (
-    CHANGED,
-    DONE,
-    FINISHED,
-    GO_ON,
-    LOCATED,
-    OPEN_SWAPS,
-    WAITING,
-    spend,
-    verdict,
-)
-from .work_sharing import unowned_sites
+)  # fmt: skip
+from .steps import CHANGED, FINISHED, LOCATED, WAITING, method
+from .work_sharing import TAKEN, Schedule
 
 HEAD_START = 1024
 
 
-def ahead(n: int, threads: int) -> int:
+class Tools(NamedTuple):
+    """What the method needs beside the mesh.
+
+    Attributes
+    ----------
+    pool : int64 (threads, k)
+        The sites that are being inserted.
+    marks : int32 (threads, k)
+        Triangles beside which illegal edges may be left.
+    alone : int
+        The other threads begin when thread 0 has inserted so many sites.
+    """
+
+    schedule: Schedule
+    lookahead: Lookahead
+    pool: np.ndarray
+    marks: np.ndarray
+    alone: int
+    location: int
+
+
+def head_start(n: int, threads: int) -> int:
     """How many sites of each part the first thread inserts alone.
 
     Where there are but a few triangles, every insertion meets the others', and what is left open there
@@ -87,193 +79,173 @@ def ahead(n: int, threads: int) -> int:
     return min(HEAD_START, n // (8 * threads)) // threads
 
 
+def tools(store: Store, schedule: Schedule, options: Options) -> Tools:
+    """For a run with these options; what lies in front of all parts is for the first thread."""
+    alone = int(schedule.parts[0, TAKEN])
+    store.state[0, c.CHUNK_END] = alone
+    store.state[1:, c.PHASE] = c.HEAD_START if alone else c.BEGIN
+    schedule.taker[:alone] = 0
+    return Tools(
+        schedule,
+        nothing_located(options.threads),
+        empty_pool(options.threads),
+        no_marks(options.threads),
+        alone,
+        WALK if options.location == "walk" else DAG,
+    )
+
+
 @cached_njit(forceinline=True)
-def _edge(nodes, t, k):
-    return load_acquire(nodes, (t, NEIGHBOR + k))
+def _beyond(nodes, t, k):
+    """The edge on the other side of edge k of t."""
+    return load_acquire(nodes, (t, c.NEIGHBOR + k))
 
 
 @cached_njit(forceinline=True)
 def _is_leaf(nodes, t):
-    return load_acquire(nodes, (t, CHILD)) < 0
+    return load_acquire(nodes, (t, c.CHILD)) < 0
 
 
 @cached_njit(forceinline=True)
-def _edge_through(points, nodes, t, q, w):
-    """Which edge of t site q, which t contains, lies on; -1 where on none. Edges at infinity pass through no
-    site."""
-    a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
-    if b >= 0 and c >= 0 and orient2d(points, b, c, q, w) == 0:
+def _edge_through(mesh, t, q):
+    """Which edge of t site q, which t contains, lies on; -1 where on none.
+
+    Edges at infinity pass through no site.
+    """
+    points, nodes, w = mesh.points, mesh.nodes, mesh.workspace
+    v0, v1, v2 = nodes[t, 0], nodes[t, 1], nodes[t, 2]
+    if v1 >= 0 and v2 >= 0 and orient2d(points, v1, v2, q, w) == 0:
         return 0
-    if c >= 0 and a >= 0 and orient2d(points, c, a, q, w) == 0:
+    if v2 >= 0 and v0 >= 0 and orient2d(points, v2, v0, q, w) == 0:
         return 1
-    if a >= 0 and b >= 0 and orient2d(points, a, b, q, w) == 0:
+    if v0 >= 0 and v1 >= 0 and orient2d(points, v0, v1, q, w) == 0:
         return 2
     return -1
 
 
 @cached_njit(forceinline=True)
-def _try_subdivision(points, nodes, shared, state, pool, me, walking, w):
-    """Subdivide the leaf that contains the site of ``me``, or find whom to wait for."""
-    q = state[me, SITE]
-    if walking:
-        t, visited = walk_history(points, nodes, state[me, NODE], q, w)
-    else:
-        t, visited = descend(points, nodes, state[me, NODE], q, w)
-    state[me, NODE] = t
-    state[me, VISITED] += visited
-    state[me, ACCESSES] += 1
-    a, b, c = _edge(nodes, t, 0), _edge(nodes, t, 1), _edge(nodes, t, 2)
-    k = _edge_through(points, nodes, t, q, w)
+def _try_subdivision(mesh, me, tools):
+    """Subdivide the leaf that contains the site of ``me``, or find which thread to wait for."""
+    nodes, state, pool = mesh.nodes, mesh.state, tools.pool
+    q = state[me, c.SITE]
+    t, visited = find_again(mesh, state[me, c.NODE], q, tools.location)
+    state[me, c.NODE] = t
+    state[me, c.VISITED] += visited
+    state[me, c.ACCESSES] += 1
+    beyond0, beyond1, beyond2 = _beyond(nodes, t, 0), _beyond(nodes, t, 1), _beyond(nodes, t, 2)
+    k = _edge_through(mesh, t, q)
     if k >= 0:
         # q lies on an edge, and the triangle beyond is subdivided too
-        across = a if k == 0 else (b if k == 1 else c)
-        u, j = across >> 2, across & 3
-        d, e = _edge(nodes, u, (j + 1) % 3), _edge(nodes, u, (j + 2) % 3)
-        looked_at = (t, a >> 2, b >> 2, c >> 2, d >> 2, e >> 2)
+        across = beyond0 if k == 0 else (beyond1 if k == 1 else beyond2)
+        u, j = triangle(across), side(across)
+        d, e = _beyond(nodes, u, (j + 1) % 3), _beyond(nodes, u, (j + 2) % 3)
+        last, next_to_last = triangle(e), triangle(d)
     else:
-        u, j, d, e = t, 0, a, b
-        looked_at = (t, a >> 2, b >> 2, c >> 2, t, t)
-    i, serial = blocker_of(points, nodes, state, pool, me, looked_at, 4 if k < 0 else 6, w)
+        u, j, d, e = t, 0, beyond0, beyond1
+        last = next_to_last = t
+    looked_at = (t, triangle(beyond0), triangle(beyond1), triangle(beyond2), next_to_last, last)
+    i, serial = blocker_of(mesh, me, pool, looked_at, 4 if k < 0 else 6)
     if i != NOBODY:
         # where i waits for this thread, the next look leaves it out of account
-        return WAITING if wait_for(shared, pool, me, i, serial) else CHANGED
+        return WAITING if wait_for(mesh.shared, pool, me, i, serial) else CHANGED
     # what was looked at must be what is there
     if (
         not _is_leaf(nodes, t)
-        or a != _edge(nodes, t, 0)
-        or b != _edge(nodes, t, 1)
-        or c != _edge(nodes, t, 2)
+        or beyond0 != _beyond(nodes, t, 0)
+        or beyond1 != _beyond(nodes, t, 1)
+        or beyond2 != _beyond(nodes, t, 2)
     ):
         return CHANGED
     if k >= 0 and not (
-        _is_leaf(nodes, u) and d == _edge(nodes, u, (j + 1) % 3) and e == _edge(nodes, u, (j + 2) % 3)
+        _is_leaf(nodes, u) and d == _beyond(nodes, u, (j + 1) % 3) and e == _beyond(nodes, u, (j + 2) % 3)
     ):
         return CHANGED
-    first = subdivide(nodes, shared, state, me, t, q, 0)
+    first = subdivide(mesh, me, t, q, 0)
     if k >= 0:
-        # the flat one of the three goes at once: nobody ever meets it, and it cannot be given up
+        # the flat one of the three goes at once: no thread ever meets it, and it cannot be given up
         flat = first + 1 if k == 0 else (first + 2 if k == 1 else first)
-        made = flip(nodes, shared, state, me, flat, 0, 0)
+        made = flip(mesh, me, flat, 0, 0)
         first = made if flat == first else first
-    state[me, NODE], state[me, LAST], state[me, PHASE] = first, nodes[first, 1], LEGALISE
+    state[me, c.NODE], state[me, c.LAST], state[me, c.PHASE] = first, nodes[first, 1], c.LEGALISE
     return CHANGED
 
 
 @cached_njit(forceinline=True)
-def _try_flip(points, nodes, shared, state, pool, me, f, w):
-    """Flip the edge of star triangle f opposite the site of ``me``, or find whom to wait for."""
-    state[me, ACCESSES] += 1
-    edge = _edge(nodes, f, 0)
-    u, j = edge >> 2, edge & 3
-    a, b = _edge(nodes, u, (j + 1) % 3), _edge(nodes, u, (j + 2) % 3)
-    i, serial = blocker_of(points, nodes, state, pool, me, (u, a >> 2, b >> 2), 3, w)
+def _try_flip(mesh, me, tools, f):
+    """Flip the edge of star triangle f opposite the site of ``me``, or find which thread to wait for."""
+    nodes, state, pool = mesh.nodes, mesh.state, tools.pool
+    state[me, c.ACCESSES] += 1
+    beyond = _beyond(nodes, f, 0)
+    u, j = triangle(beyond), side(beyond)
+    a, b = _beyond(nodes, u, (j + 1) % 3), _beyond(nodes, u, (j + 2) % 3)
+    i, serial = blocker_of(mesh, me, pool, (u, triangle(a), triangle(b)), 3)
     if i != NOBODY:
-        return WAITING if wait_for(shared, pool, me, i, serial) else CHANGED
+        return WAITING if wait_for(mesh.shared, pool, me, i, serial) else CHANGED
     if (
-        edge == _edge(nodes, f, 0)
+        beyond == _beyond(nodes, f, 0)
         and _is_leaf(nodes, u)
-        and a == _edge(nodes, u, (j + 1) % 3)
-        and b == _edge(nodes, u, (j + 2) % 3)
+        and a == _beyond(nodes, u, (j + 1) % 3)
+        and b == _beyond(nodes, u, (j + 2) % 3)
     ):
-        state[me, NODE] = flip(nodes, shared, state, me, f, 0, 0)
+        state[me, c.NODE] = flip(mesh, me, f, 0, 0)
     return CHANGED
 
 
 @cached_njit(forceinline=True)
-def _try_legalisation(points, nodes, shared, state, pool, notes, me, w):
+def _try_legalisation(mesh, me, tools):
     """Go round the star to the next edge to be flipped, and try that; or end the insertion."""
-    f = state[me, NODE]
-    if load(pool, (me, EXCEPTIONAL)) != 0 or not _is_leaf(nodes, f):
-        state[me, GIVEN_UP] += 1
-        state[me, SUSPECT] = 1
+    nodes, state = mesh.nodes, mesh.state
+    f = state[me, c.NODE]
+    if load(tools.pool, (me, EXCEPTIONAL)) != 0 or not _is_leaf(nodes, f):
+        state[me, c.GIVEN_UP] += 1
+        state[me, c.STAR_MARKED] = 1
     else:
         # the star is this thread's own, and goes round
         for _ in range(len(nodes)):
-            if illegal(points, nodes, f, w):
-                return _try_flip(points, nodes, shared, state, pool, me, f, w)
-            if nodes[f, 2] == state[me, LAST]:
+            if illegal(mesh, f):
+                return _try_flip(mesh, me, tools, f)
+            if nodes[f, 2] == state[me, c.LAST]:
                 break
-            f = _edge(nodes, f, 1) >> 2
-            state[me, NODE] = f
+            f = triangle(_beyond(nodes, f, 1))
+            state[me, c.NODE] = f
         else:
             msg = "a star of a 2D triangulation does not close"
             raise InternalError(msg)
-    if state[me, SUSPECT] != 0:
-        note_star(nodes, shared, state, notes, me, f, state[me, SITE])
-        state[me, SUSPECT] = 0
-    state[me, HINT] = f
-    retire(pool, me)
-    state[me, INSERTED] += 1
-    state[me, PHASE] = BEGIN
+    if state[me, c.STAR_MARKED] != 0:
+        mark_star(mesh, me, tools.marks, f, state[me, c.SITE])
+        state[me, c.STAR_MARKED] = 0
+    state[me, c.HINT] = f
+    retire(tools.pool, me)
+    state[me, c.INSERTED] += 1
+    state[me, c.PHASE] = c.BEGIN
     return CHANGED
 
 
 @cached_njit(forceinline=True)
-def step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w):
+def step(mesh, me, tools):
     """One step of thread ``me``: locate a site, publish one, try to subdivide, or try to flip an edge."""
+    state, pool = mesh.state, tools.pool
     if still_waits(pool, me):
         return WAITING
-    if state[me, PHASE] == SUBDIVIDE:
+    if state[me, c.PHASE] == c.SUBDIVIDE:
         clear_exception(pool, me)  # it locates again in any case
-        return _try_subdivision(points, nodes, shared, state, pool, me, walking, w)
-    if state[me, PHASE] == LEGALISE:
-        return _try_legalisation(points, nodes, shared, state, pool, notes, me, w)
-    if state[me, IN_HAND] < AT_ONCE and locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
+        return _try_subdivision(mesh, me, tools)
+    if state[me, c.PHASE] == c.LEGALISE:
+        return _try_legalisation(mesh, me, tools)
+    if state[me, c.PHASE] == c.HEAD_START:
+        if load(state, (0, c.INSERTED)) < tools.alone:
+            return WAITING
+        state[me, c.PHASE] = c.BEGIN
+    if state[me, c.LOCATED_END] < MOST_LOCATED and locate_ahead(
+        mesh, me, tools.schedule, tools.lookahead, tools.location
+    ):
         return LOCATED
-    at, count = state[me, AT], state[me, IN_HAND]
-    if at == count:
+    if state[me, c.LOCATED_AT] == state[me, c.LOCATED_END]:
         return FINISHED
-    prepare(points, nodes, hands, at, count)
-    q = hands[at, ITEM_SITE]
-    state[me, SITE], state[me, NODE], state[me, PHASE] = q, hands[at, ITEM_NODE], SUBDIVIDE
-    if at + 1 < count:
-        state[me, AT] = at + 1
-    else:
-        state[me, AT] = state[me, IN_HAND] = 0
+    q, t = next_located(mesh, me, tools.lookahead)
+    state[me, c.SITE], state[me, c.NODE], state[me, c.PHASE] = q, t, c.SUBDIVIDE
     publish(pool, me, q)
     return CHANGED
 
 
-@cached_njit(nogil=True)
-def run(points, nodes, shared, state, sites, me, pool, notes, lanes, hands, alone, walking, w):
-    """Insert sites until none is left for this thread; `DONE`, or why it came back before.
-
-    The others begin when thread 0 has inserted ``alone`` sites.
-    """
-    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
-    sites, pool, w = unowned_sites(sites), unowned(pool), unowned(w)
-    notes, lanes, hands = unowned(notes), unowned(lanes), unowned(hands)
-    waiting, effort = 0, 0
-    while me > 0 and load(state, (0, INSERTED)) < alone:
-        reason = verdict(shared, True, True)
-        if reason != GO_ON:
-            return reason
-        wait_a_little(waiting)
-        effort = strive(shared, state, me, effort, GIVING_WAY if waiting < TURNS else NAP)
-        waiting += 1
-    waiting = 0
-    begun = cycles()
-    while True:
-        between = state[me, PHASE] == BEGIN
-        reason = verdict(shared, True, between)
-        if reason != GO_ON:
-            return reason
-        if between and load(shared, (OPEN, 0)) != 0:
-            return OPEN_SWAPS
-        did = step(points, nodes, shared, state, sites, pool, notes, lanes, hands, me, walking, w)
-        if did == FINISHED:
-            return DONE
-        if did != CHANGED or waiting > 0 or state[me, PHASE] == BEGIN:
-            # a location, a wait or an insertion ends
-            column = WAIT_CYCLES if did == WAITING else (LOCATION_CYCLES if did == LOCATED else CHANGE_CYCLES)
-            begun = spend(state, me, column, begun)
-        if did == WAITING:
-            state[me, WAITS] += waiting == 0
-            wait_a_little(waiting)
-            effort = strive(shared, state, me, effort, GIVING_WAY if waiting < TURNS else NAP)
-            waiting += 1
-        else:
-            # it may find again and again that what it looked at has changed
-            effort = strive(shared, state, me, effort, STEP)
-            waiting = 0
-        stumble(shared, state, me)
+METHOD = method(tools, step)

@@ -5,11 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from .._numba.cores import available_cores
-
-METHODS = ("auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic")
-ORDERS = ("brio", "random")
-LOCATIONS = ("dag", "walk")
-MOST_THREADS = 64
+from .._options import MOST_THREADS_IN_PLANE
 
 WORTH_THREADS = 5000  # sites: with fewer a second thread costs more than it saves
 
@@ -59,7 +55,7 @@ def configured(
     seed: int = 0,
 ) -> Options:
     """What is run for n sites where None or "auto" was given."""
-    processors = min(available_cores(), MOST_THREADS)
+    processors = min(available_cores(), MOST_THREADS_IN_PLANE)
     if method == "auto":
         count = threads or (processors if n > WORTH_THREADS else 1)
         return Options(

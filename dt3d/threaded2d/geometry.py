@@ -17,7 +17,7 @@ from numba.extending import intrinsic
 from .._numba.kernel_cache import cached_njit
 from .._numba.noinline import call_noinline
 from ..predicates.filtered2d import in_circle, orient2d
-from .mesh import INFINITE
+from .columns import INFINITE
 
 
 @cached_njit
@@ -104,18 +104,23 @@ def _call_side_of_ray(typingctx, points, s0, s1, s2, p, q, w):
 
 
 @cached_njit(forceinline=True)
-def side(points, nodes, p, v, q, w):
-    """Where q lies from the line that leads from site p to v, a site or infinite: 1 left, -1 right, 0 on
-    it."""
+def in_conflict(mesh, t, q):
+    """Whether site q, which is no vertex of triangle t, is in conflict with it."""
+    nodes = mesh.nodes
+    return conflicts(mesh.points, nodes[t, 0], nodes[t, 1], nodes[t, 2], q, mesh.workspace)
+
+
+@cached_njit(forceinline=True)
+def side_of_line(mesh, p, v, q):
+    """Where q lies from the line from site p to v, a site or infinite: 1 left, -1 right, 0 on it."""
     if v >= 0:
-        return orient2d(points, p, v, q, w)
-    return _call_side_of_ray(points, nodes[0, 0], nodes[0, 1], nodes[0, 2], p, q, w)
+        return orient2d(mesh.points, p, v, q, mesh.workspace)
+    nodes = mesh.nodes
+    return _call_side_of_ray(mesh.points, nodes[0, 0], nodes[0, 1], nodes[0, 2], p, q, mesh.workspace)
 
 
 @cached_njit
-def root_of(points, nodes, q, w):
-    """The root, 0 to 3, that contains site q, which is not a vertex of the first triangle."""
-    s0, s1, s2 = nodes[0, 0], nodes[0, 1], nodes[0, 2]
+def _root_of(points, s0, s1, s2, q, w):
     # seen from the centre, q lies in the sector of one edge
     if _side_of_ray(points, s0, s1, s2, s0, q, w) >= 0:
         sector = 0 if _side_of_ray(points, s0, s1, s2, s1, q, w) <= 0 else 1
@@ -125,3 +130,10 @@ def root_of(points, nodes, q, w):
     if orient2d(points, a, b, q, w) >= 0:
         return 0
     return 1 + (sector + 2) % 3
+
+
+@cached_njit(forceinline=True)
+def root_of(mesh, q):
+    """The root, 0 to 3, that contains site q, which is not a vertex of the first triangle."""
+    nodes = mesh.nodes
+    return _root_of(mesh.points, nodes[0, 0], nodes[0, 1], nodes[0, 2], q, mesh.workspace)

@@ -2,10 +2,10 @@
 
 Deadlocks leave stars behind that are not as an insertion by itself would have left them: that of a site whose
 remaining swaps were given up, and that of the site whose thread went on over the other's unfinished star.
-Their triangles are noted as soon as they are there. Every illegal edge, then and later, has a noted triangle
-on one side of it, or one that descends from one in the history.
+Their triangles are marked as soon as they are there. Every illegal edge, then and later, has a marked
+triangle on one side of it, or one that descends from one in the history.
 
-For let an insertion meet triangles that do not descend from noted ones. Where no edge between them is
+For let an insertion meet triangles that do not descend from marked ones. Where no edge between them is
 illegal, they are the constrained Delaunay triangulation of what they cover; the site is in conflict with all
 that it removes of them; so the star that takes their place is the constrained Delaunay triangulation of the
 same with the site, and no edge between its triangles is illegal. The edges around the star are tested.
@@ -19,14 +19,16 @@ from .._errors import InternalError
 from .._numba.atomics import load_acquire
 from .._numba.atomics import store as atomic_store
 from .._numba.kernel_cache import cached_njit
-from .mesh import CHILD, NEIGHBOR, NOTED, OPEN, ROOTS, Store
+from . import columns as c
+from .columns import first_child, is_subdivided, triangle
+from .mesh import ROOTS, Store
 
-CAPACITY = 4096  # triangles that a thread can note: those of some 600 stars
+MOST_MARKED = 4096  # triangles of a thread: those of some 600 stars
 
 
-def empty_notes(threads: int) -> np.ndarray:
-    """The triangles that threads have noted, int32 (threads, CAPACITY); `NOTED` in their states counts."""
-    return np.empty((threads, CAPACITY), np.int32)
+def no_marks(threads: int) -> np.ndarray:
+    """The triangles that threads have marked, int32 (threads, MOST_MARKED); `columns.MARKED` counts them."""
+    return np.empty((threads, MOST_MARKED), np.int32)
 
 
 @cached_njit(forceinline=True)
@@ -39,41 +41,42 @@ def _place_of(nodes, t, q):
 
 
 @cached_njit
-def note_star(nodes, shared, state, notes, me, t, q):
-    """Note the triangles around site q of thread ``me``, of which t is one or was one.
+def mark_star(mesh, me, marks, t, q):
+    """Mark the triangles around site q of thread ``me``, of which t is one or was one.
 
     No other thread may be about to change them.
     """
-    child, down = load_acquire(nodes, (t, CHILD)), 0
-    while child >= 0:
-        t = child >> 1
+    nodes, state = mesh.nodes, mesh.state
+    children, down = load_acquire(nodes, (t, c.CHILD)), 0
+    while children >= 0:
+        t = first_child(children)
         # one of two or three children has it as a vertex, and a node is visited once
-        for _ in range(1 + (child & 1)):
+        for _ in range(1 + is_subdivided(children)):
             t += _place_of(nodes, t, q) == 3
         down += 1
         if down > len(nodes) or _place_of(nodes, t, q) == 3:
             msg = "the history of a 2D triangulation has lost a site"
             raise InternalError(msg)
-        child = load_acquire(nodes, (t, CHILD))
+        children = load_acquire(nodes, (t, c.CHILD))
     first = t
     for _ in range(len(nodes)):
-        if state[me, NOTED] < len(notes):
-            notes[state[me, NOTED]] = t
-        state[me, NOTED] += 1
-        t = load_acquire(nodes, (t, NEIGHBOR + (_place_of(nodes, t, q) + 1) % 3)) >> 2
+        if state[me, c.MARKED] < marks.shape[1]:
+            marks[me, state[me, c.MARKED]] = t
+        state[me, c.MARKED] += 1
+        t = triangle(load_acquire(nodes, (t, c.NEIGHBOR + (_place_of(nodes, t, q) + 1) % 3)))
         if t == first:
-            atomic_store(shared, (OPEN, 0), 1)
+            atomic_store(mesh.shared, (c.SWAPS_LEFT, 0), 1)
             return
     msg = "a star of a 2D triangulation does not close"
     raise InternalError(msg)
 
 
-def noted(store: Store, notes: np.ndarray) -> np.ndarray:
-    """The triangles noted by all threads, int32 (k,); the roots where a thread had no room for more."""
-    counts = store.state[:, NOTED]
-    if (counts > notes.shape[1]).any():
+def marked(store: Store, marks: np.ndarray) -> np.ndarray:
+    """The triangles marked by all threads, int32 (k,); the roots where a thread had no room for more."""
+    counts = store.state[:, c.MARKED]
+    if (counts > marks.shape[1]).any():
         return np.arange(ROOTS, dtype=np.int32)
-    return np.concatenate([row[:count] for row, count in zip(notes, counts, strict=True)])
+    return np.concatenate([row[:count] for row, count in zip(marks, counts, strict=True)])
 
 
 @cached_njit(nogil=True)
@@ -91,14 +94,15 @@ def leaves_below(nodes, origins, seen, stack, leaves):
     while top > 0:
         top -= 1
         t = stack[top]
-        child = nodes[t, CHILD]
-        if child < 0:
+        children = nodes[t, c.CHILD]
+        if children < 0:
             leaves[count] = t
             count += 1
             continue
-        for c in range(child >> 1, (child >> 1) + 2 + (child & 1)):
-            if not seen[c]:
-                seen[c] = True
-                stack[top] = c
+        first = first_child(children)
+        for child in range(first, first + 2 + is_subdivided(children)):
+            if not seen[child]:
+                seen[child] = True
+                stack[top] = child
                 top += 1
     return count

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from .._numba.kernel_cache import cached_njit
-from .order import brio, mixed
+from ..ordering.brio import brio
+from ..ordering.hashing import mixed
+from .configuration import Options
 
 SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 
@@ -57,20 +59,18 @@ def _rotate(order, starts):
     return out
 
 
-def insertion_order(
-    points: np.ndarray, order: str, subdivision: str, parts: int, seed: int, apart: bool = True
-) -> tuple[np.ndarray, np.ndarray]:
-    """All sites, part by part: int64 (n,), and where the parts begin and the last one ends: int64 (parts +
-    1,).
+def insertion_order(points: np.ndarray, options: Options) -> tuple[np.ndarray, np.ndarray]:
+    """All sites, part by part, int64 (n,), and the bounds of the parts, int64 (parts + 1,).
 
     In the order "brio" the points lie along the curve. Threads whose parts lie among each other begin each
-    round at different places of it, so that they seldom meet; unless they need not stay ``apart``, when one
-    warms the caches for the others.
+    round at different places of it, so that they seldom meet; not with the batch method, where they change
+    nothing and one warms the caches for the others.
     """
-    part = parts_of(points, subdivision, parts, seed)
-    if order == "brio":
+    parts, seed = options.parts, options.seed
+    part = parts_of(points, options.subdivision, parts, seed)
+    if options.order == "brio":
         sites, starts = brio(part, parts, seed)
-        if apart and parts > 1 and subdivision != "curve":
+        if options.method != "batch" and parts > 1 and options.subdivision != "curve":
             sites = _rotate(sites, starts)
         return sites, np.append(starts[:, 0], len(points))
     shuffled = np.random.default_rng([seed, 2]).permutation(len(points))

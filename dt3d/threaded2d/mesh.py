@@ -1,115 +1,118 @@
 """The shared structure: triangles as rows of one array, with vertices at infinity and a history.
 
-``nodes[t]`` is eight int32 words, half a cache line:
-
-* three vertices, counter-clockwise, rows of the points or `INFINITE`. Beyond each edge of the hull lies a
-  ghost, a triangle with the vertex at infinity, so that the triangulation covers the plane;
-* three neighbours, the k-th across the edge opposite the k-th vertex, as 4 u + j where that edge is opposite
-  the j-th vertex of u;
-* the children. Of a triangle that is no more: 2 c + 1 where it was subdivided, into c, c+1, c+2; and 2 c
-  where an edge of it was flipped, into c, c+1. Of a leaf, a triangle of the present triangulation, -1 - m,
-  where m is the thread that made it;
-* a lock: 0, or the thread that has exclusive access.
-
 Node 0 is the first triangle and nodes 1 to 3 are the ghosts around it: the roots of the directed acyclic
 graph that the children make (Kohout, Kolingerova, Zara 2004, section 3.1; L. Guibas, D. Knuth, M. Sharir:
 Randomized incremental construction of Delaunay and Voronoi diagrams, Algorithmica 7, 1992). In every triangle
-made by an insertion, the inserted site is the first vertex.
+made by an insertion, the inserted site is the first vertex. `columns` says what a row holds.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from .._memory import require
 from .._numba.atomics import add, give_way, padded
 from .._numba.kernel_cache import cached_njit
+from ..predicates import work_array
+from . import columns as c
+from .columns import edge
 
-INFINITE = -1
 ROOTS = 4
 
-# columns of `nodes`: vertices 0 to 2, then
-NEIGHBOR = 3
-CHILD = 6
-LOCK = 7
-
-# rows of `shared`, one word each
-USED, STOP, SOFT_LIMIT, CRITICAL, HEAD, TAIL, STUMBLE, OPEN, MOST_LOOKS = range(9)
-SHARED_ROWS = 9
-
-PATIENCE = 2048  # looks of a thread that waits, see `patience`
+MOST_LOOKS = 2048  # of a thread that waits, see `patience`
 
 BLOCK = 512  # nodes that a thread takes at a time
 
-# Nodes for which there is room before the first growth. Random insertion makes about 9 a site.
+# Nodes for which there is room before the first growth. Random insertion makes about 9 per site.
 NODES_PER_SITE = 12
 
-# columns of `state`, a row for each thread. First what goes on, then what is counted.
-(
-    NEXT, END, PART, BLOCK_AT, BLOCK_END, HINT, RANDOM,
-    PHASE, SITE, NODE, LAST, AT, IN_HAND, HELPED,
-    INSERTED, VISITED, FLIPS, TESTS, ACCESSES, WAITS, GIVEN_UP, EXCEPTIONS, RETRIES,
-    LOCATION_CYCLES, CHANGE_CYCLES, WAIT_CYCLES, QUEUE_FILL, HELD,
-    SUSPECT, NOTED, SEEN, LOOKED,
-) = range(32)  # fmt: skip
-STATE_COLUMNS = 32
 
-
-@cached_njit
-def write_roots(nodes, a, b, c):
-    """Begin with the positive triangle abc and the ghosts beyond its edges."""
-    nodes[:ROOTS] = 0
-    nodes[0, 0], nodes[0, 1], nodes[0, 2] = a, b, c
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        nodes[1 + i, 0], nodes[1 + i, 1], nodes[1 + i, 2] = INFINITE, nodes[0, k], nodes[0, j]
-        nodes[0, NEIGHBOR + i] = 4 * (1 + i)
-        nodes[1 + i, NEIGHBOR] = i
-        # across the edge (infinity, v_k), opposite the ghost's third vertex, lies ghost j
-        nodes[1 + i, NEIGHBOR + 2] = 4 * (1 + j) + 1
-        nodes[1 + i, NEIGHBOR + 1] = 4 * (1 + k) + 2
-        nodes[1 + i, CHILD] = -1
-    nodes[0, CHILD] = -1
-
-
-@cached_njit(forceinline=True)
-def fresh(state, me, shared, count):
-    """The first of ``count`` consecutive unused nodes."""
-    at = state[me, BLOCK_AT]
-    if at + count > state[me, BLOCK_END]:
-        at = add(shared, (USED, 0), BLOCK)
-        state[me, BLOCK_END] = at + BLOCK
-    state[me, BLOCK_AT] = at + count
-    return at
-
-
-@cached_njit
-def stumble(shared, state, me):
-    """Give way at random, once in shared[STUMBLE] calls; never where that is 0. For tests under
-    contention."""
-    if shared[STUMBLE, 0] != 0:
-        x = state[me, RANDOM]
-        x ^= (x << 13) & 0x7FFFFFFFFFFFFFFF
-        x ^= x >> 7
-        x ^= (x << 17) & 0x7FFFFFFFFFFFFFFF
-        state[me, RANDOM] = x
-        if x % shared[STUMBLE, 0] == 0:
-            give_way()
-
-
-class Store:
-    """The arrays of one run.
+class Mesh(NamedTuple):
+    """The arrays of a run, as one thread sees them: all share them but for the workspace.
 
     Attributes
     ----------
     points : float64 (n, 2)
     nodes : int32 (capacity, 8)
-    state : int64 (threads, 32)
-        Each thread writes to its own row.
     shared : int64 (9, 16)
         Words that all write to.
+    state : int64 (threads, 40)
+        Each thread writes to its own row.
+    workspace : float64 (k,)
+        Of the exact predicates of this thread.
+    """
+
+    points: np.ndarray
+    nodes: np.ndarray
+    shared: np.ndarray
+    state: np.ndarray
+    workspace: np.ndarray
+
+
+@cached_njit
+def write_roots(nodes, v0, v1, v2):
+    """Begin with the positive triangle of these vertices and the ghosts beyond its edges."""
+    nodes[:ROOTS] = 0
+    nodes[0, 0], nodes[0, 1], nodes[0, 2] = v0, v1, v2
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        nodes[1 + i, 0], nodes[1 + i, 1], nodes[1 + i, 2] = c.INFINITE, nodes[0, k], nodes[0, j]
+        nodes[0, c.NEIGHBOR + i] = edge(1 + i, 0)
+        nodes[1 + i, c.NEIGHBOR] = edge(0, i)
+        # across the edge (infinity, v_k), opposite the ghost's third vertex, lies ghost j
+        nodes[1 + i, c.NEIGHBOR + 2] = edge(1 + j, 1)
+        nodes[1 + i, c.NEIGHBOR + 1] = edge(1 + k, 2)
+        nodes[1 + i, c.CHILD] = -1
+    nodes[0, c.CHILD] = -1
+
+
+@cached_njit(forceinline=True)
+def unused_nodes(mesh, me, count):
+    """The first of ``count`` consecutive unused nodes."""
+    state = mesh.state
+    at = state[me, c.BLOCK_AT]
+    if at + count > state[me, c.BLOCK_END]:
+        at = add(mesh.shared, (c.USED, 0), BLOCK)
+        state[me, c.BLOCK_END] = at + BLOCK
+    state[me, c.BLOCK_AT] = at + count
+    return at
+
+
+@cached_njit
+def _yield_at_random(state, me, every):
+    x = state[me, c.RANDOM]
+    x ^= (x << 13) & 0x7FFFFFFFFFFFFFFF
+    x ^= x >> 7
+    x ^= (x << 17) & 0x7FFFFFFFFFFFFFFF
+    state[me, c.RANDOM] = x
+    if x % every == 0:
+        give_way()
+
+
+@cached_njit(forceinline=True)
+def inject_yield(mesh, me):
+    """Give way at random, once in shared[YIELD_EVERY] calls; never where that is 0.
+
+    Fault injection, for tests under contention.
+    """
+    every = mesh.shared[c.YIELD_EVERY, 0]
+    if every != 0:
+        _yield_at_random(mesh.state, me, every)
+
+
+class Store:
+    """Makes the arrays of one run, and makes them longer; see `Mesh`.
+
+    Parameters
+    ----------
+    points : float64 (n, 2)
+    first : int64 (3,)
+        The vertices of the first triangle.
+    threads : int
     capacity : int, optional
-        Of `nodes`, where it is known; with a history it is not, and grows.
+        Of the nodes, where it is known; with a history it is not, and grows.
     """
 
     def __init__(
@@ -119,38 +122,57 @@ class Store:
         self.reserve = 4 * len(points) + 4 * BLOCK * threads + 64
         soft = NODES_PER_SITE * len(points) + 4 * BLOCK * threads
         # words that are zero are of no triangle: they have children
-        self.nodes = np.zeros((soft + self.reserve if capacity is None else capacity, 8), np.int32)
+        self.nodes = np.zeros((soft + self.reserve if capacity is None else capacity, c.NODE_WORDS), np.int32)
         write_roots(self.nodes, *(int(v) for v in first))
-        self.state = np.zeros((threads, STATE_COLUMNS), np.int64)
-        self.state[:, PART] = np.arange(threads)
-        self.state[:, RANDOM] = np.arange(1, threads + 1) * 0x9E3779B9
-        self.shared = padded(SHARED_ROWS)
-        self.shared[USED, 0] = ROOTS
-        self.shared[SOFT_LIMIT, 0] = soft
-        self.shared[MOST_LOOKS, 0] = PATIENCE
+        self.state = np.zeros((threads, c.STATE_COLUMNS), np.int64)
+        self.state[:, c.PART] = np.arange(threads)
+        self.state[:, c.RANDOM] = np.arange(1, threads + 1) * 0x9E3779B9
+        self.shared = padded(c.SHARED_ROWS)
+        self.shared[c.USED, 0] = ROOTS
+        self.shared[c.SOFT_LIMIT, 0] = soft
+        self.shared[c.MOST_LOOKS, 0] = MOST_LOOKS
         self.growths = 0
+        self._workspaces = [work_array(points) for _ in range(threads)]
+
+    def mesh(self, me: int = 0) -> Mesh:
+        """What thread ``me`` sees, until the structure grows."""
+        return Mesh(self.points, self.nodes, self.shared, self.state, self._workspaces[me])
+
+    @property
+    def used(self) -> int:
+        """How many nodes there are, unused ones of threads' blocks included."""
+        return int(self.shared[c.USED, 0])
+
+    def stop(self) -> None:
+        """Let all threads return as soon as they can."""
+        self.shared[c.STOP, 0] = 1
 
     def grow(self) -> None:
         """Half as many nodes again. No thread may be running.
 
-        MemoryError if the system does not have the memory, ValueError if the nodes could not be named.
-
         One insertion flips fewer edges than there are, and insertions at the same time flip different ones;
         so `reserve` is what those that began below the limit may need beyond it.
+
+        Raises
+        ------
+        MemoryError
+            If the system does not have the memory.
+        ValueError
+            If the nodes could not be named.
         """
-        soft = int(self.shared[SOFT_LIMIT, 0] * 3 // 2)
+        soft = int(self.shared[c.SOFT_LIMIT, 0] * 3 // 2)
         if 4 * (soft + self.reserve) > 2**31 - 1:
             msg = (
                 f"the history of {len(self.points)} sites has more triangles than 32-bit numbers can name; "
                 f"use method='auto', which keeps none"
             )
             raise ValueError(msg)
-        used = int(self.shared[USED, 0])
-        node = self.nodes.itemsize * self.nodes.shape[1]
+        used = self.used
+        node = self.nodes.itemsize * c.NODE_WORDS
         what = f"a history of more than {used} triangles"
         require(what, node * max(used, soft - used), node * (soft + self.reserve))
-        longer = np.zeros((soft + self.reserve, 8), np.int32)
+        longer = np.zeros((soft + self.reserve, c.NODE_WORDS), np.int32)
         longer[:used] = self.nodes[:used]
         self.nodes = longer
-        self.shared[SOFT_LIMIT, 0] = soft
+        self.shared[c.SOFT_LIMIT, 0] = soft
         self.growths += 1

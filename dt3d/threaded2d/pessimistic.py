@@ -1,66 +1,55 @@
-"""The pessimistic method: location in all threads, changes in one critical section (Kolingerova and Kohout
-2000)."""
+"""The pessimistic method: location in all threads, changes in one critical section (section 4.6).
+
+I. Kolingerova, J. Kohout: Pessimistic threaded Delaunay triangulation by randomized incremental insertion,
+GraphiCon 2000.
+"""
 
 from __future__ import annotations
 
-from .._numba.atomics import compare_and_swap, cycles, give_way, load, release
+from .._numba.atomics import compare_and_swap, give_way, release
 from .._numba.kernel_cache import cached_njit
-from .._numba.unowned import unowned
-from .dag import descend
+from . import columns as c
 from .flips import insert
-from .in_place.walk import walk_history
-from .mesh import (
-    CHANGE_CYCLES,
-    CRITICAL,
-    HINT,
-    INSERTED,
-    LOCATION_CYCLES,
-    NEXT,
-    STOP,
-    VISITED,
-    WAIT_CYCLES,
-    WAITS,
-    stumble,
-)
-from .patience import GIVING_WAY, strive
-from .steps import DONE, GO_ON, STOPPED, find, spend, verdict
-from .work_sharing import next_site, unowned_sites
+from .location import find, find_again
+from .patience import GIVING_WAY
+from .sequential import tools
+from .steps import CHANGED, FINISHED, LOCATED, WAITING, method
+from .work_sharing import next_site
+
+__all__ = ["METHOD", "step", "tools"]
 
 
-@cached_njit(nogil=True)
-def run(points, nodes, shared, state, sites, me, walking, w):
-    """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
-    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
-    sites, w = unowned_sites(sites), unowned(w)
-    effort = 0
-    begun = cycles()
-    while True:
-        reason = verdict(shared, True, True)
-        if reason != GO_ON:
-            return reason
-        q = next_site(state, sites, me)
+@cached_njit(forceinline=True)
+def step(mesh, me, tools):
+    """Locate the next site, or try to enter the critical section and insert it."""
+    state, shared = mesh.state, mesh.shared
+    if state[me, c.PHASE] == c.BEGIN:
+        q = next_site(mesh, tools.schedule, me)
         if q < 0:
-            return DONE
-        t, visited = find(points, nodes, state, me, q, walking, w)
-        begun = spend(state, me, LOCATION_CYCLES, begun)
-        stumble(shared, state, me)
-        if not compare_and_swap(shared, (CRITICAL, 0), 0, me + 1):
-            state[me, WAITS] += 1
-            while not compare_and_swap(shared, (CRITICAL, 0), 0, me + 1):
-                if load(shared, (STOP, 0)) != 0:
-                    return STOPPED
-                give_way()
-                effort = strive(shared, state, me, effort, GIVING_WAY)
-        begun = spend(state, me, WAIT_CYCLES, begun)
-        # what was a leaf before may have children now
-        if walking:
-            t, more = walk_history(points, nodes, t, q, w)
-        else:
-            t, more = descend(points, nodes, t, q, w)
-        state[me, HINT] = insert(points, nodes, shared, state, me, t, q, 0, w)
-        release(shared, (CRITICAL, 0))
-        stumble(shared, state, me)
-        begun = spend(state, me, CHANGE_CYCLES, begun)
-        state[me, VISITED] += visited + more
-        state[me, INSERTED] += 1
-        state[me, NEXT] += 1
+            return FINISHED
+        t, visited = find(mesh, me, q, tools.location)
+        state[me, c.SITE], state[me, c.NODE], state[me, c.PHASE] = q, t, c.SUBDIVIDE
+        state[me, c.VISITED] += visited
+        return LOCATED
+    if not compare_and_swap(shared, (c.CRITICAL, 0), 0, me + 1):
+        return WAITING
+    # what was a leaf before may have children now
+    q = state[me, c.SITE]
+    t, visited = find_again(mesh, state[me, c.NODE], q, tools.location)
+    state[me, c.HINT] = insert(mesh, me, t, q, 0)
+    release(shared, (c.CRITICAL, 0))
+    state[me, c.VISITED] += visited
+    state[me, c.INSERTED] += 1
+    state[me, c.NEXT] += 1
+    state[me, c.PHASE] = c.BEGIN
+    return CHANGED
+
+
+@cached_njit(forceinline=True)
+def _wait(mesh, me, waited):
+    mesh.state[me, c.WAITS] += waited == 0
+    give_way()
+    return GIVING_WAY
+
+
+METHOD = method(tools, step, wait=_wait)

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from .._optional import optional
 from .._output import new_figure
 
 if TYPE_CHECKING:
     import pyvista
+    from matplotlib.axes import Axes
+
+    from .._triangulation import InPlane
 
 
-def to_pyvista(tri: Any, heights: Any = None) -> pyvista.PolyData:
+def to_pyvista(tri: InPlane, heights: npt.ArrayLike | None = None) -> pyvista.PolyData:
     """The triangles as a surface with cell data "thread" and point data "inserted_by".
 
     Parameters
     ----------
-    tri : threaded2d.Delaunay
+    tri : threaded2d.Delaunay or threaded2d.Subset
+        What is shown.
     heights : float (n,), optional
         The third coordinate of each point; 0 if left out.
 
@@ -29,34 +34,15 @@ def to_pyvista(tri: Any, heights: Any = None) -> pyvista.PolyData:
     """
     pv = optional("pyvista")
     z = np.zeros(len(tri.points)) if heights is None else np.asarray(heights, np.float64)
-    mesh = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
+    mesh: pyvista.PolyData = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
     # copies, since VTK writes where an array is read-only, too
     mesh.cell_data["thread"] = tri.thread.copy()
     mesh.point_data["inserted_by"] = tri.inserted_by.copy()
     return mesh
 
 
-def plot(tri: Any, ax: Any = None, *, colormap: str = "tab10", edges: bool | None = None) -> Any:
-    """Draw the triangles, coloured by the threads that made them.
-
-    Parameters
-    ----------
-    tri : threaded2d.Delaunay
-    ax : matplotlib axes, optional
-        A new figure's if left out.
-    colormap : str
-    edges : bool, optional
-        Whether to draw edges; by default up to 20,000 triangles.
-
-    Returns
-    -------
-    The axes.
-
-    Raises
-    ------
-    ImportError
-        If matplotlib is not installed.
-    """
+def plot(tri: InPlane, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None) -> Axes:
+    """Draw the triangles, coloured by the threads that made them, as `Delaunay.plot` does."""
     if ax is None:
         ax = new_figure(6, 6).add_subplot()
     colormaps = optional("matplotlib").colormaps

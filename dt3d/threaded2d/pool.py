@@ -9,20 +9,17 @@ import numpy as np
 
 from .._numba.atomics import acquire, load, load_acquire, release, store, store_release
 from .._numba.kernel_cache import cached_njit
-from .geometry import conflicts
-from .mesh import CRITICAL, EXCEPTIONS, PHASE, SUSPECT, TESTS
+from . import columns as c
+from .geometry import in_conflict
 
-# columns of `pool`: a thread's site or -1, how many it has finished, for which insertion of whom it waits or
-# -1, and whether another one made use of its waiting; then room for a path of waiting threads
+# columns of `pool`: a thread's site or -1, how many it has finished, for which insertion of which thread it
+# waits or -1, and whether another one made use of its waiting; then room for a path of waiting threads
 POOL_SITE, SERIAL, WAITS_FOR, EXCEPTIONAL = range(4)
 PATH = 16
 
 THREAD_BITS = 8  # of a word of WAITS_FOR; above them is how many that thread had finished
 
 NOBODY = -1
-
-# phases of a thread: before its next site is in the pool, before anything is changed for it, after that
-BEGIN, SUBDIVIDE, LEGALISE = range(3)
 
 
 def empty_pool(threads: int) -> np.ndarray:
@@ -48,7 +45,7 @@ def retire(pool, me):
 
 @cached_njit(forceinline=True)
 def clear_exception(pool, me):
-    """Take the flag back. Nobody sets it now: that is done only to threads that wait."""
+    """Take the flag back. No thread sets it now: that is done only to threads that wait."""
     if load(pool, (me, EXCEPTIONAL)) != 0:
         store_release(pool, (me, EXCEPTIONAL), 0)
 
@@ -94,20 +91,20 @@ def _leads_to(pool, i, me):
 
 
 @cached_njit(forceinline=True)
-def touches(points, nodes, t, q, w):
+def touches(mesh, t, q):
     """Whether the insertion of q may change t: it is in conflict, or a vertex already."""
-    a, b, c = nodes[t, 0], nodes[t, 1], nodes[t, 2]
-    return a == q or b == q or c == q or conflicts(points, a, b, c, q, w)
+    nodes = mesh.nodes
+    return nodes[t, 0] == q or nodes[t, 1] == q or nodes[t, 2] == q or in_conflict(mesh, t, q)
 
 
 @cached_njit(forceinline=True)
-def blocker_of(points, nodes, state, pool, me, triangles, count, w):
-    """A thread whose insertion may change one of the first ``count`` triangles, and how many it had finished;
-    or `NOBODY`.
+def blocker_of(mesh, me, pool, triangles, count):
+    """A thread whose insertion may change one of the first ``count`` triangles, or `NOBODY`.
 
-    Threads that wait for this one are left out, and flagged; where their stars are unfinished, that of this
-    one gets suspect.
+    Returns it and how many insertions it had finished. Threads that wait for this one are left out, and
+    flagged; where their stars are unfinished, that of this one may keep illegal edges.
     """
+    state = mesh.state
     for i in range(len(pool)):
         if i == me:
             continue
@@ -117,29 +114,31 @@ def blocker_of(points, nodes, state, pool, me, triangles, count, w):
             continue
         for x in range(count):
             t = triangles[x]
-            state[me, TESTS] += 1
-            if touches(points, nodes, t, q, w):
+            state[me, c.TESTS] += 1
+            if touches(mesh, t, q):
                 if not _leads_to(pool, i, me):
                     return i, serial
                 store(pool, (i, EXCEPTIONAL), 1)
-                state[me, EXCEPTIONS] += 1
-                if load(state, (i, PHASE)) == LEGALISE:
-                    state[me, SUSPECT] = 1
+                state[me, c.EXCEPTIONS] += 1
+                if load(state, (i, c.PHASE)) == c.LEGALISE:
+                    state[me, c.STAR_MARKED] = 1
                 break
     return NOBODY, 0
 
 
 @cached_njit(forceinline=True)
 def wait_for(shared, pool, me, i, serial):
-    """Enter that ``me`` waits for i, which had finished ``serial`` insertions, to finish one more, unless i
-    waits for ``me`` already; whether it does, or has to try again as others are about to enter the same.
+    """Enter that ``me`` waits for i, which had finished ``serial`` insertions, to finish one more.
+
+    Not where i waits for ``me`` already. Returns whether ``me`` has to wait, be it to try again since others
+    are about to enter the same.
 
     The waits that are entered make no circle, as each is looked through and entered in the critical section.
     """
-    if not acquire(shared, (CRITICAL, 0), me + 1):
+    if not acquire(shared, (c.CRITICAL, 0), me + 1):
         return True
     deadlock = _leads_to(pool, i, me)
     if not deadlock:
         store(pool, (me, WAITS_FOR), serial << THREAD_BITS | i)
-    release(shared, (CRITICAL, 0))
+    release(shared, (c.CRITICAL, 0))
     return not deadlock

@@ -1,8 +1,8 @@
 """A bounded queue of sites and where they were located, for any number of threads at both ends.
 
 D. Vyukov's bounded queue: every cell has a number that says whose turn it is, so that a thread needs one
-compare-and-swap for all elements that it puts or takes, and one that loses the processor in between holds
-nobody up but at its own cells. The paper uses a short critical section instead.
+compare-and-swap for all elements that it puts or takes, and one that loses the processor in between delays
+others at its own cells only. The paper uses a short critical section instead.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ import numpy as np
 
 from .._numba.atomics import compare_and_swap, load, load_acquire, store_release
 from .._numba.kernel_cache import cached_njit
-from .mesh import HEAD, TAIL
+from . import columns as c
 
-# columns of `cells`, and the first two of elements in hand
+# columns of `cells`, and the first two of located sites
 ITEM_SITE, ITEM_NODE, TURN = range(3)
 
 
 def empty_queue(length: int) -> np.ndarray:
-    """Cells of a queue, int64 (length, 4); the ends are words of the store's `shared`, 0 at the beginning."""
+    """Cells of a queue, int64 (length, 4); its ends are words of `Mesh.shared`, 0 at the beginning."""
     cells = np.zeros((length, 4), np.int64)
     cells[:, TURN] = np.arange(length)
     return cells
@@ -46,9 +46,11 @@ def _reserve(cells, shared, end, ahead, wanted):
 
 @cached_njit(forceinline=True)
 def put(cells, shared, items, first, count):
-    """Append items[first : first + count], rows (site, node), or as many of them as there is room for; how
-    many."""
-    at, room = _reserve(cells, shared, TAIL, 0, count)
+    """Append items[first : first + count], rows (site, node), or as many as there is room for.
+
+    Returns how many.
+    """
+    at, room = _reserve(cells, shared, c.TAIL, 0, count)
     for i in range(room):
         cell = (at + i) % len(cells)
         cells[cell, ITEM_SITE] = items[first + i, ITEM_SITE]
@@ -60,7 +62,7 @@ def put(cells, shared, items, first, count):
 @cached_njit(forceinline=True)
 def get(cells, shared, items, first, count):
     """Take up to ``count`` elements, into items[first], items[first + 1], ...; how many there were."""
-    at, found = _reserve(cells, shared, HEAD, 1, count)
+    at, found = _reserve(cells, shared, c.HEAD, 1, count)
     for i in range(found):
         cell = (at + i) % len(cells)
         items[first + i, ITEM_SITE] = cells[cell, ITEM_SITE]
@@ -72,4 +74,4 @@ def get(cells, shared, items, first, count):
 @cached_njit(forceinline=True)
 def fill_of(shared):
     """How many elements there are, while others come and go."""
-    return max(0, load(shared, (TAIL, 0)) - load(shared, (HEAD, 0)))
+    return max(0, load(shared, (c.TAIL, 0)) - load(shared, (c.HEAD, 0)))

@@ -2,32 +2,47 @@
 
 from __future__ import annotations
 
-from .._numba.atomics import cycles
+from typing import NamedTuple
+
 from .._numba.kernel_cache import cached_njit
-from .._numba.unowned import unowned
+from . import columns as c
+from .configuration import Options
 from .flips import insert
-from .mesh import CHANGE_CYCLES, HINT, INSERTED, LOCATION_CYCLES, NEXT, VISITED
-from .steps import DONE, GO_ON, find, spend, verdict
-from .work_sharing import next_site, unowned_sites
+from .location import DAG, WALK, find
+from .mesh import Store
+from .steps import CHANGED, FINISHED, LOCATED, method
+from .work_sharing import Schedule, next_site
 
 
-@cached_njit(nogil=True)
-def run(points, nodes, shared, state, sites, me, walking, w):
-    """Insert sites until none is left for this thread; `DONE`, or why it came back before."""
-    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
-    sites, w = unowned_sites(sites), unowned(w)
-    begun = cycles()
-    while True:
-        reason = verdict(shared, True, True)
-        if reason != GO_ON:
-            return reason
-        q = next_site(state, sites, me)
+class Tools(NamedTuple):
+    """What the method needs beside the mesh."""
+
+    schedule: Schedule
+    location: int
+
+
+def tools(store: Store, schedule: Schedule, options: Options) -> Tools:
+    """For a run with these options."""
+    return Tools(schedule, WALK if options.location == "walk" else DAG)
+
+
+@cached_njit(forceinline=True)
+def step(mesh, me, tools):
+    """Locate the next site, or insert it."""
+    state = mesh.state
+    if state[me, c.PHASE] == c.BEGIN:
+        q = next_site(mesh, tools.schedule, me)
         if q < 0:
-            return DONE
-        t, visited = find(points, nodes, state, me, q, walking, w)
-        begun = spend(state, me, LOCATION_CYCLES, begun)
-        state[me, HINT] = insert(points, nodes, shared, state, me, t, q, 0, w)
-        begun = spend(state, me, CHANGE_CYCLES, begun)
-        state[me, VISITED] += visited
-        state[me, INSERTED] += 1
-        state[me, NEXT] += 1
+            return FINISHED
+        t, visited = find(mesh, me, q, tools.location)
+        state[me, c.SITE], state[me, c.NODE], state[me, c.PHASE] = q, t, c.CHANGE
+        state[me, c.VISITED] += visited
+        return LOCATED
+    state[me, c.HINT] = insert(mesh, me, state[me, c.NODE], state[me, c.SITE], 0)
+    state[me, c.INSERTED] += 1
+    state[me, c.NEXT] += 1
+    state[me, c.PHASE] = c.BEGIN
+    return CHANGED
+
+
+METHOD = method(tools, step)

@@ -8,9 +8,8 @@ checked and the theorem that they imply it; here are the exact signs that they n
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
 from .. import _topology
 from .._numba.kernel_cache import cached_njit
@@ -20,16 +19,13 @@ from .geometry import conflicts
 
 __all__ = ["Verification", "verify"]
 
-# Row k: the edge opposite the k-th vertex of a positive triangle, which has the triangle on its left.
-OUTWARD = np.array([[1, 2], [2, 0], [0, 1]])
-
 
 def verify(
-    points: Any,
-    triangles: Any,
+    points: npt.ArrayLike,
+    triangles: npt.ArrayLike,
     *,
-    neighbors: Any = None,
-    duplicates: Any = None,
+    neighbors: npt.ArrayLike | None = None,
+    duplicates: npt.ArrayLike | None = None,
     perturbed: bool = False,
     oriented: bool = False,
 ) -> Verification:
@@ -43,6 +39,7 @@ def verify(
     Parameters
     ----------
     points : float64 (n, 2)
+        The sites.
     triangles : int (m, 3)
         Of either orientation: those that turn to the right are turned first, which is a remark.
     neighbors : int (m, 3), optional
@@ -146,7 +143,7 @@ PLANE = Space(
         "ball": "circle",
         "at every ridge": "at every vertex",
     },
-    outward=OUTWARD,
+    outward=_topology.OUTWARD_IN_PLANE,
     orientations=_orientations,
     count_inside=_count_inside,
     count_containing=_count_containing,

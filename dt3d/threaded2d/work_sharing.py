@@ -1,8 +1,8 @@
 """Sites to insert: each thread its own part, and in the end what others have not come to.
 
 The paper gives every thread a fixed part (Kohout et al. 2004, section 4.5). Where processors are not equally
-fast, as those of a virtual machine, all then wait for the slowest. Here a thread takes its part in pieces,
-and when nothing is left of it pieces of other parts. Small parts are one piece.
+fast, as those of a virtual machine, all then wait for the slowest. Here a thread takes its part in chunks,
+and when nothing is left of it chunks of other parts. Small parts are one chunk.
 """
 
 from __future__ import annotations
@@ -14,17 +14,16 @@ import numpy as np
 
 from .._numba.atomics import add, load, padded
 from .._numba.kernel_cache import cached_njit
-from .._numba.unowned import unowned
-from .mesh import END, NEXT, PART
+from . import columns as c
 
-PIECE = 512  # sites
+CHUNK = 512  # sites that a thread takes at a time
 
 # columns of `parts`: where the sites begin that nobody has taken, and where the part ends
 TAKEN, PART_END = range(2)
 
 
-class Sites(NamedTuple):
-    """What all threads insert.
+class Schedule(NamedTuple):
+    """Which thread inserts which sites: the distribution of the work.
 
     Attributes
     ----------
@@ -40,11 +39,11 @@ class Sites(NamedTuple):
     taker: np.ndarray
 
 
-def share(order: np.ndarray, bounds: np.ndarray) -> Sites:
+def share(order: np.ndarray, bounds: np.ndarray) -> Schedule:
     """Sites in parts that begin at bounds[:-1] and end at bounds[1:]; one thread or more for all of them."""
     parts = padded(len(bounds) - 1)
     parts[:, TAKEN], parts[:, PART_END] = bounds[:-1], bounds[1:]
-    return Sites(order, parts, np.full(len(order), -1, np.int16))
+    return Schedule(order, parts, np.full(len(order), -1, np.int16))
 
 
 def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -58,35 +57,33 @@ def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.
     return np.concatenate(front + rest), bounds + left
 
 
-@cached_njit(forceinline=True)
-def unowned_sites(sites):
-    """The same without reference counts, for compiled kernels."""
-    return unowned(sites[0]), unowned(sites[1]), unowned(sites[2])
-
-
 @cached_njit
-def take(state, sites, me):
-    """Take a piece, the sites NEXT to END - 1 of the order; whether there was one."""
-    _, parts, taker = sites
-    own = state[me, PART]
+def next_chunk(state, schedule, me):
+    """Take a chunk, the sites NEXT to CHUNK_END - 1 of the order: of its own part, then of others'.
+
+    Returns whether there was one.
+    """
+    parts = schedule.parts
+    own = state[me, c.PART]
     for i in range(len(parts)):
         part = (own + i) % len(parts)
-        # the last pieces are left to the thread whose part it is, or that is at it
+        # the last chunks are left to the thread whose part it is, or that is at it
         left = parts[part, PART_END] - load(parts, (part, TAKEN))
-        if left <= 0 or (i > 0 and left < 2 * PIECE):
+        if left <= 0 or (i > 0 and left < 2 * CHUNK):
             continue
-        begin = add(parts, (part, TAKEN), PIECE)
-        end = min(begin + PIECE, parts[part, PART_END])
+        begin = add(parts, (part, TAKEN), CHUNK)
+        end = min(begin + CHUNK, parts[part, PART_END])
         if begin < end:
-            state[me, NEXT], state[me, END], state[me, PART] = begin, end, part
-            taker[begin:end] = me
+            state[me, c.NEXT], state[me, c.CHUNK_END], state[me, c.PART] = begin, end, part
+            schedule.taker[begin:end] = me
             return True
     return False
 
 
 @cached_njit(forceinline=True)
-def next_site(state, sites, me):
+def next_site(mesh, schedule, me):
     """The next site of thread ``me``; -1 where there is none left for it."""
-    if state[me, NEXT] == state[me, END] and not take(state, sites, me):
+    state = mesh.state
+    if state[me, c.NEXT] == state[me, c.CHUNK_END] and not next_chunk(state, schedule, me):
         return -1
-    return sites[0][state[me, NEXT]]
+    return schedule.order[state[me, c.NEXT]]

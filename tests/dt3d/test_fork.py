@@ -82,12 +82,11 @@ if __name__ == "__main__":
 LOCKS = """
 if __name__ == "__main__":
     from numba.core.compiler_lock import global_compiler_lock
-    from dt3d import location
     from dt3d._numba.kernel_cache import cached_njit
 
     tri = dt3d.Delaunay(points)
     tri.find_simplex(points)
-    with location._ONE_AT_A_TIME:  # as by another thread that locates points
+    with tri._locator.lock:  # as by another thread that locates points
         work = lambda: tri.find_simplex(points).min() >= 0
         ended(multiprocessing.get_context("fork").Process(target=attempt, args=("location", work)))
 

@@ -143,7 +143,7 @@ def test_any_number_of_points_is_taken_some_at_a_time(monkeypatch, d):
     sites, points = rng.random((300, d)), 1.2 * rng.random((1000, d)) - 0.1
     tri = dt3d.Delaunay(sites) if d == 3 else threaded2d.Delaunay(sites)
     together = tri.find_simplex(points)
-    monkeypatch.setattr(location, "AT_A_TIME", 64)
+    monkeypatch.setattr(location, "POINTS_AT_A_TIME", 64)
     np.testing.assert_array_equal(tri.find_simplex(points), together)
     monkeypatch.setattr("dt3d._input.MOST_SITES", 500)  # a limit of sites, not of what is located
     np.testing.assert_array_equal(tri.find_simplex(points.reshape(10, 100, d)), together.reshape(10, 100))
@@ -172,7 +172,7 @@ def test_many_points_by_several_threads(monkeypatch):
     rng = np.random.default_rng(2)
     tri, points = dt3d.Delaunay(rng.random((2000, 3))), rng.random((5000, 3))
     alone = tri.find_simplex(points)
-    monkeypatch.setattr(location, "PIECE", 500)
+    monkeypatch.setattr(location, "LEAST_POINTS_PER_THREAD", 500)
     monkeypatch.setattr(location, "available_cores", lambda: 7)
     several = location.Locator(tri.points, tri.simplices, tri.neighbors)
     np.testing.assert_array_equal(several.find(points), alone)

@@ -10,6 +10,7 @@ import pytest
 import dt3d
 from dt3d import _memory, threaded2d
 from dt3d.insertion import store
+from dt3d.insertion.mesh import aligned
 
 
 @pytest.fixture
@@ -24,7 +25,7 @@ def no_thread(monkeypatch):
 
 
 def test_a_thread_that_the_system_refuses_is_a_memory_error(no_thread, monkeypatch):
-    monkeypatch.setattr("dt3d.insertion.loop.available_cores", lambda: 2)
+    monkeypatch.setattr("dt3d.insertion.driver.available_cores", lambda: 2)
     points = np.random.default_rng(0).random((8000, 3))
     with pytest.raises(MemoryError, match="refused another thread.*threads=1"):
         dt3d.Delaunay(points, threads=2)
@@ -41,6 +42,15 @@ def test_a_thread_refused_to_location_is_a_memory_error(no_thread, monkeypatch):
     with pytest.raises(MemoryError, match="refused another thread.*fewer than 8192 points"):
         tri.find_simplex(many)
     assert (tri.find_simplex(many[1:]) >= -1).all()  # as the message advises
+
+
+def test_points_are_refused_before_they_are_located(memory):
+    for tri, d in ((dt3d.Delaunay(uniform(100)), 3), (threaded2d.Delaunay(uniform(100, 2)), 2)):
+        memory(1e6)
+        with pytest.raises(MemoryError, match="locating 10000 points needs about"):
+            tri.find_simplex(uniform(10_000, d))
+        assert (tri.find_simplex(uniform(5000, d)) >= -1).all()
+        memory(1e9)
 
 
 @pytest.fixture
@@ -80,24 +90,24 @@ def test_quadratically_many_tetrahedra_are_refused_when_there_is_no_room_for_twi
 
 def test_slots_are_refused_when_they_would_be_written(memory, monkeypatch):
     """Memory that others have taken since it was reserved."""
-    monkeypatch.setattr(store, "CHECKED", 100)
+    monkeypatch.setattr(store, "SLOTS_PER_CHECK", 100)
     memory(1e6)
-    slots = store.Store(np.arange(4, dtype=np.uint32), 1000, block=50, assured=300)
+    slots = store.Store(aligned(16, np.float64), np.arange(4, dtype=np.uint32), 1000, block=50, assured=300)
     for _ in range(8):
-        slots.take()
+        slots.take_block()
     assert 300 < slots.used <= slots.assured < 500
     memory(0)
     while slots.used < slots.assured:
-        slots.take()
+        slots.take_block()
     with pytest.raises(MemoryError, match="a triangulation of more than [0-9]+ tetrahedra needs about"):
-        slots.take()
+        slots.take_block()
     assert slots.lock.acquire(blocking=False)
 
 
 def test_doubling_needs_the_old_and_the_new_half_at_once(memory):
     first = np.arange(4, dtype=np.uint32)
     memory(64 * 600)
-    small = store.Store(first, 1000, 10)
+    small = store.Store(aligned(16, np.float64), first, 1000, 10)
     small.used = 1000
     small.grow()
     assert small.capacity == 2000
@@ -105,11 +115,11 @@ def test_doubling_needs_the_old_and_the_new_half_at_once(memory):
     with pytest.raises(MemoryError, match="more than 2000 tetrahedra"):
         small.grow()
     assert small.capacity == 2000
-    assert len(small.mesh) == 8 * 2000
+    assert len(small.tetrahedra) == 8 * 2000
 
 
 def test_more_tetrahedra_than_32_bits_name_is_an_error_that_says_the_limit(monkeypatch):
-    for module in ("store", "loop"):
+    for module in ("store", "driver"):
         monkeypatch.setattr(f"dt3d.insertion.{module}.MOST_SLOTS", 10_000)
     with pytest.raises(ValueError, match="name at most 10000 = 2\\^30; triangulate fewer sites at a time"):
         dt3d.Delaunay(moments(400))

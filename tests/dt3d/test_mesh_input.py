@@ -30,7 +30,7 @@ def case(request):
 
 
 def test_indices_that_are_no_rows_of_sites(case):
-    verify, good, neighbors, name = case
+    verify, good, _neighbors, name = case
     corners = good.shape[1]
     largest = int(good.max())
     for wrong, text in [
@@ -65,7 +65,7 @@ def test_indices_of_any_integer_type_in_any_order(case, dtype):
 
 
 def test_points_that_are_none(case):
-    verify, good, neighbors, name = case
+    verify, good, _neighbors, _name = case
     corners = good.shape[1]
     d = corners - 1
     points = SPACE[:, :d]
@@ -82,7 +82,7 @@ def test_points_that_are_none(case):
 
 
 def test_neighbors_that_are_none(case):
-    verify, good, neighbors, name = case
+    verify, good, neighbors, _name = case
     corners = good.shape[1]
     m = len(good)
     assert verify(neighbors=neighbors)
@@ -115,7 +115,7 @@ def test_duplicates_that_are_none(case):
 
 
 def test_a_cut_mesh_of_the_right_type_is_no_error_but_no_triangulation(case):
-    verify, good, neighbors, name = case
+    verify, good, _neighbors, _name = case
     corners = good.shape[1]
     assert not verify([])
     assert not verify(np.empty((0, corners), np.int32))

@@ -1,5 +1,7 @@
 """Callbacks, interruption, and sets that the paper's method cannot finish."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -24,7 +26,13 @@ def test_progress_is_reported_after_every_iteration():
     assert [p.tetrahedra for p in seen] == np.cumsum(tri.stats.tetrahedra_per_iteration).tolist()
     assert seen[-1].remaining == 0
     assert all(p.remaining > 0 for p in seen[:-1])
-    assert all(a.seconds < b.seconds for a, b in zip(seen, seen[1:], strict=False))
+    assert all(a.seconds < b.seconds for a, b in itertools.pairwise(seen))
+
+
+def test_the_old_name_of_what_remains_warns():
+    progress = dt3d.Progress(1, 5, 3, 0.1)
+    with pytest.warns(DeprecationWarning, match="now Progress.remaining"):
+        assert progress.open_faces == progress.remaining
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
@@ -85,8 +93,8 @@ def test_a_run_in_circles_ends(monkeypatch):
 
 
 def test_insertion_reports_every_stretch_and_stops(monkeypatch):
-    monkeypatch.setattr("dt3d.insertion.loop.STRETCH", 40)
-    monkeypatch.setattr("dt3d.insertion.crew.STRETCH", 10)
+    monkeypatch.setattr("dt3d.insertion.driver.SITES_PER_REPORT", 40)
+    monkeypatch.setattr("dt3d.insertion.team.SITES_PER_CALL", 10)
     points = np.random.default_rng(0).random((100, 3))
     seen = []
     dt3d.Delaunay(points, method="insertion", callback=seen.append)

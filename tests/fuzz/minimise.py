@@ -1,8 +1,12 @@
-"""Fewer rows, and simpler numbers, that still fail (A. Zeller, R. Hildebrandt: Simplifying and isolating
-failure-inducing input. IEEE Transactions on Software Engineering 28, 2002)."""
+"""Fewer rows, and simpler numbers, that still fail.
+
+A. Zeller, R. Hildebrandt: Simplifying and isolating failure-inducing input. IEEE Transactions on Software
+Engineering 28, 2002.
+"""
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable
 
@@ -18,7 +22,7 @@ def minimise(points: np.ndarray, fails: Callable[[np.ndarray], bool], seconds: f
     pieces = 2
     while len(points) > 1 and time.monotonic() < until:
         bounds = np.linspace(0, len(points), min(pieces, len(points)) + 1).astype(int)
-        for i, j in zip(bounds[:-1], bounds[1:], strict=True):
+        for i, j in itertools.pairwise(bounds):
             fewer = np.concatenate([points[:i], points[j:]])
             if len(fewer) and fails(fewer):
                 points, pieces = fewer, max(2, pieces - 1)

@@ -124,9 +124,7 @@ def check(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, dupl
     require(simplices.min() >= 0 and simplices.max() < len(points), "vertices are rows of the points")
     check_duplicates(points, duplicates)
     used = sorted(set(distinct(points).values()))
-    require(
-        np.array_equal(np.unique(simplices), used), "the vertices are the first of equal sites"
-    )
+    require(np.array_equal(np.unique(simplices), used), "the vertices are the first of equal sites")
 
     exact = integers(points)
     corners = [exact[simplices[:, k]] for k in range(d + 1)]

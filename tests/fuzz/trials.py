@@ -11,7 +11,8 @@ import numpy as np
 import dt3d
 import scanvec as sv
 from dt3d import threaded2d
-from dt3d.insertion import crew, loop
+from dt3d._numba import threads as runner
+from dt3d.insertion import driver, team
 from dt3d.threaded2d.configuration import configured
 from dt3d.threaded2d.driver import triangulate as triangulate_plane
 
@@ -77,12 +78,12 @@ def _check_other_order(points: np.ndarray, tri: Any, rng: Rng) -> None:
 def contended(rng: Rng) -> Iterator[None]:
     """Pieces, stretches and blocks so small that threads meet all the time; as many threads as asked for."""
     settings = {
-        (crew, "LEAST_PIECE"): int(rng.integers(1, 12)),
-        (crew, "STRETCH"): int(rng.integers(1, 9)),
-        (crew, "PATIENCE"): 0.001,
-        (loop, "LARGEST_BLOCK"): int(rng.choice([8, 64])),
-        (loop, "SLOTS_PER_SITE"): int(rng.choice([1, 8])),
-        (loop, "available_cores"): lambda: 8,
+        (team, "LEAST_SITES_PER_THREAD"): int(rng.integers(1, 12)),
+        (team, "SITES_PER_CALL"): int(rng.integers(1, 9)),
+        (runner, "SECONDS_BETWEEN_LOOKS"): 0.001,
+        (driver, "LARGEST_BLOCK"): int(rng.choice([8, 64])),
+        (driver, "SLOTS_PER_SITE"): int(rng.choice([1, 8])),
+        (driver, "available_cores"): lambda: 8,
     }
     before = {key: getattr(*key) for key in settings}
     for key, value in settings.items():

@@ -129,7 +129,7 @@ def test_phases_and_operations(cm):
 
 
 def test_an_operation_is_named_when_all_arguments_are_given_by_keyword(cm, v):
-    sv.pack(record=v, flags=v > 3)
+    sv.pack(v=v, flags=v > 3)
     assert {e.operation for e in cm.ledger.entries} == {"map", "pack"}
 
 

@@ -1,22 +1,20 @@
 """The programs on the simulator's page run, and the names that it lists exist."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 
 import scanvec as sv
 
-PAGE = (Path(__file__).parents[2] / "scanvec" / "README.md").read_text(encoding="utf-8")
+from ..documents import page, programs, run
+
+PAGE = page("scanvec/README.md")
 
 
 def test_the_experiment_of_ones_own(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    names: dict = {}
-    programs = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
-    for program in programs:
-        exec(program, names)
-    assert len(programs) == 2
+    assert len(programs(PAGE)) == 2
+    names = run(programs(PAGE))
     assert np.array_equal(names["ranks"].to_numpy()[names["order"]], np.arange(4096)[::-1])
     # what the page says: in the last round one processor answers nearly all, and more nodes help little
     rounds = names["cm5"].ledger.by_iteration("jump")

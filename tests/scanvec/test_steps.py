@@ -38,6 +38,7 @@ def steps(program, n: int = 8) -> int:
 # what is documented, a program, its steps over 8 elements, over none
 STATED = [
     (sv.Machine.map, lambda x: x.cm.map(abs, x.v), 1, 1),
+    (sv.Machine.scan, lambda x: x.cm.scan(x.v, sv.ADD, exclusive=True), 1, 1),
     (sv.Machine.get, lambda x: x.cm.get(x.v, x.index), 1, 1),
     (sv.Machine.send, lambda x: x.cm.send(x.v, x.index, sv.ADD, into=x.v), 1, 1),
     (sv.Machine.iota, lambda x: x.cm.iota(8), 1, 1),

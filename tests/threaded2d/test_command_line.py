@@ -1,5 +1,4 @@
-"""`dt3d triangulate` and `verify` in the plane: what is taken for planar, which options go together, and
-files."""
+"""`dt3d triangulate` and `verify` in the plane: what is planar, options that go together, files."""
 
 import re
 from functools import cache
@@ -102,7 +101,7 @@ def test_a_picture_of_the_plane(tmp_path):
     ("points", "words", "message"),
     [
         (2, ["--method", "extrapolation"], "--method extrapolation goes with points in space"),
-        (2, ["--method", "insertion"], "has two coordinates a point.*--method insertion"),
+        (2, ["--method", "insertion"], "has two coordinates per point.*--method insertion"),
         (2, ["--machine", "device"], "--machine device goes with points in space"),
         (2, ["--robustness", "perturb"], "--robustness perturb goes with points in space"),
         (2, ["--dtype", "float32"], "--dtype float32 goes with points in space"),

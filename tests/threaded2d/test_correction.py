@@ -4,70 +4,70 @@ import numba
 import numpy as np
 import pytest
 
-from dt3d.predicates import work_array
 from dt3d.predicates.filtered2d import orient2d
-from dt3d.threaded2d import correction, dag, sequential
+from dt3d.threaded2d import columns as c
+from dt3d.threaded2d import correction, dag
+from dt3d.threaded2d.columns import edges_of, side, triangle
 from dt3d.threaded2d.compaction import compact
-from dt3d.threaded2d.configuration import Options
-from dt3d.threaded2d.mesh import CHILD, NEIGHBOR, ROOTS, SOFT_LIMIT, USED
-from dt3d.threaded2d.steps import DONE
-from dt3d.threaded2d.virtual_time.costs import prepared
+from dt3d.threaded2d.mesh import ROOTS
 
 from .families import EVERY_SET, canonical
+from .runs import inserted
 
 
 @numba.njit
-def _spoil(points, nodes, shared, state, edges, w):
+def _spoil(mesh, edges):
     """Flip those of the edges whose two triangles make a convex quadrilateral; how many."""
+    points, nodes, w = mesh.points, mesh.nodes, mesh.workspace
     flips = 0
     for edge in edges:
-        t, k = edge >> 2, edge & 3
-        if nodes[t, CHILD] >= 0:
+        t, k = triangle(edge), side(edge)
+        if nodes[t, c.CHILD] >= 0:
             continue
-        u, j = nodes[t, NEIGHBOR + k] >> 2, nodes[t, NEIGHBOR + k] & 3
+        beyond = nodes[t, c.NEIGHBOR + k]
         p, a, b = nodes[t, k], nodes[t, (k + 1) % 3], nodes[t, (k + 2) % 3]
-        d = nodes[u, j]
+        d = nodes[triangle(beyond), side(beyond)]
         if min(p, a, b, d) < 0:
             continue
         if orient2d(points, p, a, d, w) > 0 and orient2d(points, p, d, b, w) > 0:
-            correction._flip(nodes, shared, state, t, k)
+            correction.flip_edge(mesh, t, k)
             flips += 1
     return flips
 
 
+@numba.njit
+def _located(mesh, q):
+    return dag.locate(mesh, q)[0]
+
+
+def _leaves(store):
+    return np.flatnonzero(store.nodes[: store.used, c.CHILD] < 0)
+
+
 @pytest.mark.parametrize("name", EVERY_SET)
 def test_edges_flipped_at_random_are_flipped_back(name):
-    store, sites = prepared(EVERY_SET[name](300), Options(method="sequential", order="random"))
-    work = work_array(store.points)
-    run = sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, work)
-    assert run == DONE
-    used, rows = int(store.shared[USED, 0]), np.arange(len(store.points))
-    want = canonical(compact(store.nodes, used, rows)[0])
-    leaves = np.flatnonzero(store.nodes[:used, CHILD] < 0)
-    rng = np.random.default_rng(0)
-    edges = 4 * rng.choice(leaves, 200) + rng.integers(0, 3, 200)
-    spoilt = _spoil(store.points, store.nodes, store.shared, store.state, edges, work)
-    flips = correction.correct(store, np.arange(ROOTS, dtype=np.int32), work, lambda: None)
+    store, _ = inserted(EVERY_SET[name](300))
+    rows = np.arange(len(store.points))
+    want = canonical(compact(store.nodes[: store.used], rows).triangles)
+    edges = np.random.default_rng(0).choice(edges_of(_leaves(store)), 200)
+    spoilt = _spoil(store.mesh(), edges)
+    flips = correction.correct(store, np.arange(ROOTS, dtype=np.int32))
     assert (flips > 0) == (spoilt > 0)
-    triangles, neighbors, _ = compact(store.nodes, int(store.shared[USED, 0]), rows)
+    triangles, neighbors, _ = compact(store.nodes[: store.used], rows)
     np.testing.assert_array_equal(canonical(triangles), want)
     t, k = np.nonzero(neighbors >= 0)
     assert (neighbors[neighbors[t, k]] == t[:, None]).any(axis=1).all()
     # the history leads every site to a triangle that it is a vertex of
     for q in rows:
-        t, _ = dag.locate(store.points, store.nodes, q, work)
-        assert q in store.nodes[t, :3]
+        assert q in store.nodes[_located(store.mesh(), q), :3]
 
 
 def test_a_correction_without_room_grows_the_structure():
-    store, sites = prepared(EVERY_SET["uniform"](300), Options(method="sequential", order="random"))
-    work = work_array(store.points)
-    sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, work)
-    used, rows = int(store.shared[USED, 0]), np.arange(len(store.points))
-    want = canonical(compact(store.nodes, used, rows)[0])
-    leaves = np.flatnonzero(store.nodes[:used, CHILD] < 0)
-    assert _spoil(store.points, store.nodes, store.shared, store.state, 4 * leaves, work) > 20
-    store.shared[SOFT_LIMIT, 0] = store.shared[USED, 0] - 1
-    assert correction.correct(store, np.arange(ROOTS, dtype=np.int32), work, lambda: None) > 20
+    store, _ = inserted(EVERY_SET["uniform"](300))
+    rows = np.arange(len(store.points))
+    want = canonical(compact(store.nodes[: store.used], rows).triangles)
+    assert _spoil(store.mesh(), edges_of(_leaves(store))[::3]) > 20
+    store.shared[c.SOFT_LIMIT, 0] = store.used - 1
+    assert correction.correct(store, np.arange(ROOTS, dtype=np.int32)) > 20
     assert store.growths == 1
-    np.testing.assert_array_equal(canonical(compact(store.nodes, int(store.shared[USED, 0]), rows)[0]), want)
+    np.testing.assert_array_equal(canonical(compact(store.nodes[: store.used], rows).triangles), want)

@@ -10,29 +10,20 @@ import pytest
 
 from dt3d import InternalError
 from dt3d._numba.threads import run_threads
-from dt3d.predicates import work_array
-from dt3d.threaded2d import correction, dag, flips, illegal_edges, optimistic, pool, sequential
+from dt3d.threaded2d import columns as c
+from dt3d.threaded2d import correction, dag, flips, illegal_edges, optimistic, pool
+from dt3d.threaded2d.columns import edge, triangle
 from dt3d.threaded2d.configuration import Options, configured
 from dt3d.threaded2d.driver import Run, triangulate
-from dt3d.threaded2d.in_place import cavity, walk
-from dt3d.threaded2d.mesh import (
-    CHILD,
-    CRITICAL,
-    LOCK,
-    LOOKED,
-    MOST_LOOKS,
-    NEIGHBOR,
-    PATIENCE,
-    ROOTS,
-    STOP,
-    Store,
-)
-from dt3d.threaded2d.steps import DONE, STOPPED
+from dt3d.threaded2d.in_place import cavity
+from dt3d.threaded2d.location import walk_history
+from dt3d.threaded2d.mesh import MOST_LOOKS, ROOTS, Store
+from dt3d.threaded2d.steps import STOPPED
 from dt3d.threaded2d.virtual_time import scheduler
 from dt3d.threaded2d.virtual_time.costs import Costs, prepared
-from dt3d.threaded2d.work_sharing import share
 
 from .families import EVERY_SET, uniform
+from .runs import half_inserted
 
 KINDS = [
     ("sequential", 1, "dag"),
@@ -54,7 +45,7 @@ def _run(method, threads, location, n=400):
     store, sites = prepared(uniform(n), options)
     if options.in_place:
         store = Store(store.points, store.nodes[0, :3], threads, ROOTS + 2 * len(store.points))
-    store.shared[MOST_LOOKS, 0] = 0
+    store.shared[c.MOST_LOOKS, 0] = 0
     return Run(options, store, sites)
 
 
@@ -68,9 +59,9 @@ def _raises_and_leaves_no_thread(run, match):
 def _going_round(run):
     if run.options.in_place:
         # over each edge of the first triangle lies the first triangle, come into over its next edge
-        run.store.nodes[0, NEIGHBOR : NEIGHBOR + 3] = 1, 2, 0
+        run.store.nodes[0, c.NEIGHBOR : c.NEIGHBOR + 3] = 1, 2, 0
     else:
-        run.store.nodes[:ROOTS, CHILD] = 0  # the children of all roots are the first two roots
+        run.store.nodes[:ROOTS, c.CHILD] = 0  # the children of all roots are the first two roots
 
 
 @pytest.mark.parametrize(("method", "threads", "location"), KINDS)
@@ -86,23 +77,23 @@ def _stuck(name):
     run = _run(method, 1 if name == "pessimistic dag" else 3, location.split()[0])
     store, tasks = run.store, [0, 1]
     if method == "optimistic":
-        store.nodes[:ROOTS, LOCK] = 99
+        store.nodes[:ROOTS, c.LOCK] = 99
     elif method == "pessimistic":
-        store.shared[CRITICAL, 0] = 99
+        store.shared[c.CRITICAL, 0] = 99
         tasks = [0]
     elif name == "batch dag without specialised":
         pass
     elif name == "batch dag without searching":
         tasks = [2]
     elif name == "circumcircle dag head start":
-        run.alone, tasks = 1, [1, 2]
+        store.state[1:, c.PHASE] = c.HEAD_START
+        run.tools, tasks = run.tools._replace(alone=1), [1, 2]
     else:
         # a vertex of everything, of a thread that does nothing
-        run.pool[2, pool.POOL_SITE] = store.nodes[0, 0]
-        run.alone = 0
+        run.tools.pool[2, pool.POOL_SITE] = store.nodes[0, 0]
         if name.endswith("critical"):
-            store.shared[CRITICAL, 0] = 99
-    return run, [run._timed(k) for k in tasks]
+            store.shared[c.CRITICAL, 0] = 99
+    return run, [run.task(k) for k in tasks]
 
 
 STUCK = [
@@ -125,13 +116,13 @@ IMPATIENT = ("optimistic walk", "batch dag without searching", "circumcircle dag
 )
 def test_a_wait_that_nobody_ends(name):
     run, tasks = _stuck(name)
-    _raises_and_leaves_no_thread(lambda: run_threads(tasks, run.stop), "wait for each other")
+    _raises_and_leaves_no_thread(lambda: run_threads(tasks, run.store.stop), "wait for each other")
 
 
 @pytest.mark.parametrize("name", STUCK)
 def test_what_another_thread_raises_ends_every_wait(name):
     run, tasks = _stuck(name)
-    run.store.shared[MOST_LOOKS, 0] = PATIENCE
+    run.store.shared[c.MOST_LOOKS, 0] = MOST_LOOKS
 
     def failing():
         time.sleep(0.05)
@@ -140,45 +131,35 @@ def test_what_another_thread_raises_ends_every_wait(name):
 
     before = threading.active_count()
     with pytest.raises(ArithmeticError, match="another one fails"):
-        run_threads([*tasks, failing], run.stop)
+        run_threads([*tasks, failing], run.store.stop)
     assert threading.active_count() == before
 
 
 @pytest.mark.parametrize("name", STUCK)
 def test_the_stop_flag_ends_every_wait(name):
     run, tasks = _stuck(name)
-    run.store.shared[STOP, 0] = 1
-    assert set(run_threads(tasks, run.stop)) == {STOPPED}
+    run.store.stop()
+    assert set(run_threads(tasks, run.store.stop)) == {STOPPED}
 
 
 @numba.njit
-def _walked(points, nodes, start, sites, w):
-    return [walk.walk_history(points, nodes, start, q, w)[0] for q in sites]
+def _walked(mesh, start, sites):
+    return [walk_history(mesh, start, q)[0] for q in sites]
 
 
 @numba.njit
-def _located(points, nodes, sites, w):
-    return [dag.locate(points, nodes, q, w)[0] for q in sites]
-
-
-def _half(n=300):
-    """A store with half of its sites, and the other sites."""
-    store, sites = prepared(uniform(n), Options(method="sequential", order="random"))
-    half = len(sites.order) // 2
-    w = work_array(store.points)
-    some = share(sites.order[:half], np.array([0, half]))
-    assert sequential.run(store.points, store.nodes, store.shared, store.state, some, 0, False, w) == DONE
-    return store, sites.order[half:], w
+def _located(mesh, sites):
+    return [dag.locate(mesh, q)[0] for q in sites]
 
 
 def test_a_walk_that_goes_round_in_circles_goes_on_in_the_history():
-    store, others, w = _half()
-    want = _located(store.points, store.nodes, others, w)
-    leaves = np.flatnonzero(store.nodes[:, CHILD] < 0)
+    store, others = half_inserted(uniform(300))
+    want = _located(store.mesh(), others)
+    leaves = np.flatnonzero(store.nodes[:, c.CHILD] < 0)
     # every edge leads to the same two triangles
-    store.nodes[leaves, NEIGHBOR : NEIGHBOR + 3] = 4 * leaves[0]
-    store.nodes[leaves[0], NEIGHBOR : NEIGHBOR + 3] = 4 * leaves[1]
-    assert _walked(store.points, store.nodes, leaves[0], others, w) == want
+    store.nodes[leaves, c.NEIGHBOR : c.NEIGHBOR + 3] = edge(int(leaves[0]), 0)
+    store.nodes[leaves[0], c.NEIGHBOR : c.NEIGHBOR + 3] = edge(int(leaves[1]), 0)
+    assert _walked(store.mesh(), leaves[0], others) == want
 
 
 def _with(function, **names):
@@ -188,73 +169,78 @@ def _with(function, **names):
 
 
 @numba.njit
-def _always(points, nodes, f, w):
+def _always(mesh, f):
     return True
 
 
 @numba.njit
-def _always_edge(points, nodes, t, k, w):
+def _always_edge(mesh, t, k):
+    return True
+
+
+@numba.njit
+def _always_in_conflict(mesh, t, q):
     return True
 
 
 def test_a_legalisation_that_does_not_end():
-    store, others, w = _half()
+    store, others = half_inserted(uniform(300))
     insert = _with(flips.insert, illegal=_always)
-    t = _located(store.points, store.nodes, others[:1], w)[0]
-    used = int(store.shared[0, 0])
+    t = _located(store.mesh(), others[:1])[0]
+    used = store.used
     with pytest.raises(InternalError, match="legalisation.*please report"):
-        insert(store.points, store.nodes, store.shared, store.state, 0, t, others[0], 0, w)
-    assert store.shared[0, 0] - used < store.reserve
+        insert(store.mesh(), 0, t, others[0], 0)
+    assert store.used - used < store.reserve
 
 
 @pytest.mark.slow
 def test_a_correction_that_does_not_end(monkeypatch):
-    store, _, w = _half(40)
-    monkeypatch.setattr(correction, "_flip_illegal", _with(correction._flip_illegal, _illegal=_always_edge))
+    store, _ = half_inserted(uniform(40))
+    monkeypatch.setattr(correction, "flip_illegal", _with(correction.flip_illegal, is_illegal=_always_edge))
     before = threading.active_count()
     with pytest.raises(InternalError, match="correction.*please report"):
-        correction.correct(store, np.arange(ROOTS, dtype=np.int32), w, lambda: None)
+        correction.correct(store, np.arange(ROOTS, dtype=np.int32))
     assert threading.active_count() == before
 
 
 def test_conflicts_without_an_end_stay_within_their_arrays():
-    store, others, w = _half()
-    claim = _with(cavity.claim, in_conflict=numba.njit(lambda points, nodes, t, q, w: True))
-    length = 4 * len(store.points) + 64
-    held, found, rim = (np.full(k * length + 1, -7, np.int32) for k in (1, 1, 3))
+    store, others = half_inserted(uniform(300))
+    lock_cavity = _with(cavity.lock_cavity, in_conflict=_always_in_conflict)
+    whole = [np.full((1, a.shape[1] + 1), -7, np.int32) for a in cavity.empty_scratch(len(store.points), 1)]
+    scratch = cavity.Scratch(*(a[:, :-1] for a in whole))
     for lock in (0, 1):
-        t = int(np.flatnonzero(store.nodes[:, CHILD] < 0)[0])
+        t = int(np.flatnonzero(store.nodes[:, c.CHILD] < 0)[0])
         with pytest.raises(InternalError, match="have no end.*please report"):
-            claim(store.points, store.nodes, t, others[0], lock, held[:-1], found[:-1], rim[:-1], w)
-    assert held[-1] == found[-1] == rim[-1] == -7
+            lock_cavity(store.mesh(), 0, t, others[0], lock, scratch)
+    assert [a[0, -1] for a in whole] == [-7, -7, -7]
 
 
 def test_stars_that_do_not_close():
-    store, _, _ = _half()
+    store, _ = half_inserted(uniform(300))
     nodes = store.nodes
-    f = int(np.flatnonzero((nodes[:, CHILD] < 0) & (nodes[:, 0] >= 0))[-1])
+    f = int(np.flatnonzero((nodes[:, c.CHILD] < 0) & (nodes[:, 0] >= 0))[-1])
     q = int(nodes[f, 0])
-    following = nodes[f, NEIGHBOR + 1] >> 2
-    nodes[following, NEIGHBOR : NEIGHBOR + 3] = 4 * following
-    unlock, note = numba.njit(optimistic._unlock_star.py_func), numba.njit(illegal_edges.note_star.py_func)
+    following = triangle(int(nodes[f, c.NEIGHBOR + 1]))
+    nodes[following, c.NEIGHBOR : c.NEIGHBOR + 3] = edge(following, 0)
+    unlock, mark = numba.njit(optimistic.unlock_star.py_func), numba.njit(illegal_edges.mark_star.py_func)
     with pytest.raises(InternalError, match="does not close"):
         unlock(nodes, f)
-    notes = illegal_edges.empty_notes(1)[0]
+    marks = illegal_edges.no_marks(1)
     with pytest.raises(InternalError, match="does not close"):
-        note(nodes, store.shared, store.state, notes, 0, f, q)
-    nodes[f, CHILD] = 2 * f  # it descends from itself
+        mark(store.mesh(), 0, marks, f, q)
+    nodes[f, c.CHILD] = 2 * f  # it descends from itself
     with pytest.raises(InternalError, match="lost a site"):
-        note(nodes, store.shared, store.state, notes, 0, f, q)
-    nodes[f, CHILD] = 1  # the roots do not have it
+        mark(store.mesh(), 0, marks, f, q)
+    nodes[f, c.CHILD] = 1  # the roots do not have it
     with pytest.raises(InternalError, match="lost a site"):
-        note(nodes, store.shared, store.state, notes, 0, f, q)
+        mark(store.mesh(), 0, marks, f, q)
 
 
 @pytest.mark.parametrize("method", ["sequential", "batch", "circumcircle", "optimistic", "pessimistic"])
 def test_virtual_time_ends_too(method, monkeypatch):
     def broken(points, options):
         store, sites = prepared(points, options)
-        store.nodes[:ROOTS, CHILD] = 0
+        store.nodes[:ROOTS, c.CHILD] = 0
         return store, sites
 
     monkeypatch.setattr(scheduler, "prepared", broken)
@@ -266,8 +252,8 @@ def test_virtual_time_ends_too(method, monkeypatch):
 def test_virtual_time_of_a_lock_that_is_not_given_back(monkeypatch):
     def locked(points, options):
         store, sites = prepared(points, options)
-        store.nodes[:ROOTS, LOCK] = 99
-        store.shared[MOST_LOOKS, 0] = 0
+        store.nodes[:ROOTS, c.LOCK] = 99
+        store.shared[c.MOST_LOOKS, 0] = 0
         return store, sites
 
     monkeypatch.setattr(scheduler, "prepared", locked)
@@ -292,5 +278,5 @@ def test_contended_runs_do_not_come_near(name, monkeypatch):
         options = configured(len(points), method=method, threads=threads, location=location, queue_length=2)
         triangulate(points, options.contended(2))
     for run in runs:
-        assert (run.store.state[:, LOOKED] == 0).all()
+        assert (run.store.state[:, c.LOOKED] == 0).all()
     assert len(runs) == len(KINDS) - 2

@@ -1,5 +1,4 @@
-"""Sets with all magnitudes of float64: no rounded difference decides whether sites are equal, or their
-order."""
+"""Sets with all magnitudes of float64: no rounded difference decides order, or whether sites are equal."""
 
 import warnings
 
@@ -7,8 +6,8 @@ import numpy as np
 import pytest
 
 from dt3d import threaded2d
+from dt3d.ordering.along_curve import along_curve_in_plane
 from dt3d.threaded2d.input_subdivision import SUBDIVISIONS, parts_of
-from dt3d.threaded2d.order import along_curve
 
 from .families import canonical
 from .test_triangulation import brute_force
@@ -22,8 +21,10 @@ RUNS = [
 
 
 def crowded(exponent, drawn):
-    """Three far sites, and so many draws of a lattice that is 2^exponent wide, in whose cell of the curve lie
-    also sites that a rounded difference does not tell apart: A, B, A."""
+    """Three far sites, and so many draws of a lattice that is 2^exponent wide.
+
+    In its cell of the curve lie also sites that a rounded difference does not tell apart: A, B, A.
+    """
     rng = np.random.default_rng(drawn)
     lattice = np.ldexp(rng.integers(-8, 9, (drawn, 2)).astype(float), exponent)
     tiny = [[2.0**-980, 0], [2.0**-981, 0], [2.0**-980, 0]]
@@ -111,7 +112,7 @@ def test_a_crowded_cell_is_triangulated_by_all_methods(exponent):
 @pytest.mark.parametrize("name", SETS)
 def test_copies_on_the_curve_are_equal_sites(name):
     points = SETS[name]
-    site, pairs = along_curve(points)
+    site, pairs = along_curve_in_plane(points)
     assert pairs.tolist() == copies_of(points)
     assert sorted([*site, *pairs[:, 0]]) == list(range(len(points)))
 
@@ -119,7 +120,9 @@ def test_copies_on_the_curve_are_equal_sites(name):
 def test_the_curve_has_cells_where_differences_overflow():
     rng = np.random.default_rng(0)
     points = (2 * rng.random((500, 2)) - 1) * np.finfo(float).max
-    np.testing.assert_array_equal(along_curve(points)[0], along_curve(points * 2.0**-1000)[0])
+    np.testing.assert_array_equal(
+        along_curve_in_plane(points)[0], along_curve_in_plane(points * 2.0**-1000)[0]
+    )
 
 
 @pytest.mark.parametrize("subdivision", SUBDIVISIONS)

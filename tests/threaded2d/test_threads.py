@@ -55,17 +55,17 @@ def test_only_integers_are_atomic():
 
 def test_an_exception_in_one_thread_stops_the_others(monkeypatch):
     began = threading.Event()
-    run = star.run
+    method = star.METHOD
 
     def failing(*args):
-        if args[6] == 1:
+        if args[1] == 1:
             began.wait()
             msg = "thread 1 fails"
             raise RuntimeError(msg)
         began.set()
-        return run(*args)
+        return method.run(*args)
 
-    monkeypatch.setattr(star, "run", failing)
+    monkeypatch.setattr(star, "METHOD", method._replace(run=failing))
     before = threading.active_count()
     with pytest.raises(RuntimeError, match="thread 1 fails"):
         threaded2d.Delaunay(uniform(200_000), method="optimistic", threads=2, location="walk")

@@ -1,5 +1,4 @@
-"""Every method, any number of threads, any subdivision: one triangulation, proved, and found by brute force
-too."""
+"""Every method, number of threads and subdivision: one triangulation, proved, and found by brute force."""
 
 from fractions import Fraction
 from itertools import combinations
@@ -21,8 +20,11 @@ SUBDIVISIONS = ("random", "x-slabs", "distance", "curve")
 
 
 def brute_force(points):
-    """Triangles with no perturbed site inside, in rational arithmetic: heights |p|^2 + e_p, infinitesimals in
-    the lexicographic order of coordinates, the first dominant."""
+    """Triangles with no perturbed site inside, in rational arithmetic.
+
+    Heights are |p|^2 + e_p, with infinitesimals in the lexicographic order of coordinates: the first
+    dominates.
+    """
     exact = [tuple(Fraction(x) for x in p) for p in points.tolist()]
     rank = {p: i for i, p in enumerate(sorted(set(exact)))}
     first = {p: i for i, p in reversed(list(enumerate(exact)))}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +11,10 @@ from ..._numba.cores import available_cores
 from ...samples import crater_lake
 from ...threaded2d import Delaunay
 from .report import Row, publish
-from .speedups import NOTE, _Set
+from .speedups import NOTE, SpeedupSet
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 # speed-ups on a P 410 (2) and a PE 6400 (4), for 100,001 points of the terrain
@@ -27,13 +28,13 @@ def crater(
     sites = crater_lake()
     if points < len(sites):
         sites = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:points])]
-    given = _Set(sites[:, :2], repeats)
+    given = SpeedupSet(sites[:, :2], repeats)
     rows: list[Row] = []
     for method, (two, four) in PAPER.items():
         rows.append({"method": method, "paper 2": two, "paper 4": four} | given.row(method))
     tri = Delaunay(sites[:, :2], method="circumcircle", threads=4, subdivision="x-slabs")
 
-    def draw(axes: Any) -> None:
+    def draw(axes: Axes) -> None:
         corners = sites[tri.triangles]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / [30, 30, 1]
         light = normals @ [-0.5, 0.5, 0.7] / np.linalg.norm(normals, axis=1)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from ...threaded2d import Delaunay
 from . import sets
 from .report import Row, publish
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 
@@ -44,7 +45,7 @@ def phases(
             }
         )
 
-    def draw(axes: Any) -> None:
+    def draw(axes: Axes) -> None:
         below = [0.0] * len(rows)
         for column in ("location ms", "change ms", "extraction ms"):
             values = [1e3 * row[column] / row["points"] for row in rows]
@@ -52,7 +53,7 @@ def phases(
                 [str(row["points"]) for row in rows], values, bottom=below, label=column.removesuffix(" ms")
             )
             below = [b + v for b, v in zip(below, values, strict=True)]
-        axes.set(xlabel="points", ylabel="microseconds a point", title=f"sequential, {order} order")
+        axes.set(xlabel="points", ylabel="microseconds per point", title=f"sequential, {order} order")
         axes.legend()
 
     note = "Uniform points, DAG. The paper frees its structure too, in what is neither location nor change."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...threaded2d.configuration import Options, searching_threads
 from ...threaded2d.virtual_time.costs import measure
@@ -12,6 +12,7 @@ from . import sets
 from .report import Row, publish
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 LENGTHS = (16, 32, 64, 128, 256, 512, 1024, 2048, 4096)
@@ -40,7 +41,7 @@ def queue(
         row["paper best"] = best
         rows.append(row)
 
-    def draw(axes: Any) -> None:
+    def draw(axes: Axes) -> None:
         for row in rows:
             axes.plot(
                 LENGTHS, [row[str(length)] for length in LENGTHS], "o-", label=f"{row['points']:,} points"

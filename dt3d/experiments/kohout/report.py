@@ -10,6 +10,7 @@ from ... import _output
 from ..._output import new_figure
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 Row = dict[str, Any]
@@ -21,7 +22,7 @@ def publish(
     rows: Sequence[Row],
     out: Path,
     console: Console,
-    draw: Callable[[Any], None],
+    draw: Callable[[Axes], None],
     note: str,
 ) -> None:
     """Print rows, whose keys are the columns, and write ``name``.csv and ``name``.png into ``out``.
@@ -44,7 +45,7 @@ def publish(
     _output.publish(console, out, name, columns, [[row[c] for c in columns] for row in rows], figure)
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     if value is None:
         return ""
     return f"{value:.3g}" if isinstance(value, float) else str(value)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..._numba.cores import available_cores
-from ...predicates import work_array
 from ...threaded2d.configuration import Options, queue_for
 from ...threaded2d.correction import correct
 from ...threaded2d.driver import triangulate
@@ -20,6 +19,7 @@ from . import sets
 from .report import Row, publish
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from rich.console import Console
 
 # Table 2 and Table 3, two processing elements: Shalla, P 410, PE 6400
@@ -59,7 +59,7 @@ def _options(
     )
 
 
-class _Set:
+class SpeedupSet:
     """A set with its costs and its sequential times."""
 
     def __init__(self, points: np.ndarray, repeats: int, order: str = "random") -> None:
@@ -100,7 +100,7 @@ def _compiled(points: np.ndarray, options: Options) -> None:
     few = points[: min(500, len(points))]
     triangulate(few, options)
     store, _ = prepared(few, options)
-    correct(store, np.arange(ROOTS, dtype=np.int32), work_array(store.points), lambda: None)
+    correct(store, np.arange(ROOTS, dtype=np.int32))
 
 
 def _seconds(points: np.ndarray, options: Options) -> float:
@@ -108,8 +108,8 @@ def _seconds(points: np.ndarray, options: Options) -> float:
     return seconds["insertion"] + seconds["correction"]
 
 
-def _lines(rows: list[Row], x: str, columns: dict[str, str], ylabel: str) -> Callable[[Any], None]:
-    def draw(axes: Any) -> None:
+def _lines(rows: list[Row], x: str, columns: dict[str, str], ylabel: str) -> Callable[[Axes], None]:
+    def draw(axes: Axes) -> None:
         for column, style in columns.items():
             if any(row[column] is not None for row in rows):
                 axes.plot([row[x] for row in rows], [row[column] for row in rows], style, label=column)
@@ -135,7 +135,7 @@ def _by_size(
             "paper P 410, 2": known[1] if known else None,
             "paper PE 6400, 2": known[2] if known else None,
         }
-        rows.append({"points": n} | _Set(sets.uniform(n), repeats).row(method) | of_paper)
+        rows.append({"points": n} | SpeedupSet(sets.uniform(n), repeats).row(method) | of_paper)
     styles = {
         "virtual 2": "o-",
         "virtual 4": "o-",
@@ -180,7 +180,7 @@ def arc(
     """
     rows: list[Row] = []
     for n in sets.sizes(points):
-        given, plain = _Set(sets.arc(n), repeats), _Set(sets.uniform(n), repeats)
+        given, plain = SpeedupSet(sets.arc(n), repeats), SpeedupSet(sets.uniform(n), repeats)
         row: Row = {"points": n}
         for method in ("batch", "circumcircle"):
             for elements in (2, 4):
@@ -202,7 +202,7 @@ def subdivision(out: Path, console: Console, *, points: int = 50_000, seed: int 
 
     The paper, two processors: slabs and distances cost more than they save. It expects better with six.
     """
-    given = _Set(sets.uniform(points, seed), 1)
+    given = SpeedupSet(sets.uniform(points, seed), 1)
     rows: list[Row] = []
     for elements in (2, 4, 6, 8, 16):
         row: Row = {"elements": elements}
@@ -228,14 +228,14 @@ def subdivision(out: Path, console: Console, *, points: int = 50_000, seed: int 
 
 def table4(out: Path, console: Console, *, points: int = 100_000, repeats: int = 5) -> list[Row]:
     """Table 4: the methods compared, about 100,000 uniform points, on 2 and 4 elements."""
-    given = _Set(sets.uniform(points), repeats)
+    given = SpeedupSet(sets.uniform(points), repeats)
     rows: list[Row] = []
     for method, (two, four) in TABLE4.items():
         row: Row = {"method": method, "paper 2": two, "paper 4": four} | given.row(method)
         row["off the paper's 4, %"] = 100 * (row["virtual 4"] / four - 1)
         rows.append(row)
 
-    def draw(axes: Any) -> None:
+    def draw(axes: Axes) -> None:
         for k, column in enumerate(("paper 2", "virtual 2", "measured", "paper 4", "virtual 4")):
             axes.bar(
                 [i + 0.15 * k for i in range(len(rows))], [row[column] for row in rows], 0.14, label=column

@@ -1,6 +1,6 @@
-"""Location of several sites at a time in the history, node by node in turn.
+"""Location of several sites at a time in the history, node by node in turn: interleaved searches.
 
-On its way to a leaf a location waits for memory at nearly every node, in vain: the next node is not known
+On its way to a leaf a location waits for memory at nearly every node, since the next node is not known
 before. Several of them wait together.
 """
 
@@ -12,64 +12,67 @@ from ..._errors import InternalError
 from ..._numba.atomics import load_acquire
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.prefetch import prefetch
+from .. import columns as c
+from ..columns import first_child
 from ..dag import child_of
 from ..geometry import root_of
-from ..mesh import CHILD
 
-LANES = 8
+SEARCHES = 8
 
-# columns of `lanes`
-LANE_SITE, LANE_NODE, LANE_CHILD = range(3)
+# columns of a thread's searches: the site or `IDLE`, the node that it has come to, and its children
+SEARCH_SITE, SEARCH_NODE, SEARCH_CHILDREN = range(3)
 
-EMPTY = -1
+IDLE = -1
 
 
-def empty_lanes(threads: int) -> np.ndarray:
-    """The sites on their way, of each thread: int64 (threads, LANES, 4)."""
-    return np.full((threads, LANES, 4), EMPTY, np.int64)
+def idle_searches(threads: int) -> np.ndarray:
+    """The searches of each thread: int64 (threads, SEARCHES, 4)."""
+    return np.full((threads, SEARCHES, 4), IDLE, np.int64)
 
 
 @cached_njit(forceinline=True)
-def _look_ahead(nodes, lanes, i, t):
-    """Let lane i go on from node t; whether t is a leaf."""
-    child = load_acquire(nodes, (t, CHILD))
-    lanes[i, LANE_NODE], lanes[i, LANE_CHILD] = t, child
-    if child < 0:
+def _look_ahead(nodes, searches, i, t):
+    """Let search i go on from node t; whether t is a leaf."""
+    children = load_acquire(nodes, (t, c.CHILD))
+    searches[i, SEARCH_NODE], searches[i, SEARCH_CHILDREN] = t, children
+    if children < 0:
         return True
-    # three children may lie on two lines
-    prefetch(nodes, child >> 1)
-    prefetch(nodes, (child >> 1) + 2)
+    # three children may lie on two lines of the cache
+    prefetch(nodes, first_child(children))
+    prefetch(nodes, first_child(children) + 2)
     return False
 
 
 @cached_njit(forceinline=True)
-def start(points, nodes, lanes, i, q, w):
-    """Let site q begin in lane i, at its root."""
-    lanes[i, LANE_SITE] = q
-    _look_ahead(nodes, lanes, i, root_of(points, nodes, q, w))
+def start(mesh, searches, i, q):
+    """Let search i begin for site q, at its root."""
+    searches[i, SEARCH_SITE] = q
+    _look_ahead(mesh.nodes, searches, i, root_of(mesh, q))
 
 
 @cached_njit(forceinline=True)
-def advance(points, nodes, lanes, w):
-    """Go on in all lanes until a site is located: its lane, or `EMPTY` where all are empty; and how many
-    nodes were visited."""
+def advance(mesh, searches):
+    """Go on with all searches until a site is located.
+
+    Returns its search, or `IDLE` where all are idle; and how many nodes were visited.
+    """
     visited = 0
     while True:
         busy = False
-        for i in range(LANES):
-            q = lanes[i, LANE_SITE]
-            if q == EMPTY:
+        for i in range(SEARCHES):
+            q = searches[i, SEARCH_SITE]
+            if q == IDLE:
                 continue
             busy = True
-            child = lanes[i, LANE_CHILD]
-            if child < 0:
+            children = searches[i, SEARCH_CHILDREN]
+            if children < 0:
                 return i, visited
-            t = child_of(points, nodes, lanes[i, LANE_NODE], child, q, w)
+            t = child_of(mesh, searches[i, SEARCH_NODE], children, q)
             visited += 1
-            if _look_ahead(nodes, lanes, i, t):
+            if _look_ahead(mesh.nodes, searches, i, t):
                 return i, visited
-            if visited > LANES * len(nodes):  # each lane visits a node once (`dag`)
+            if visited > SEARCHES * len(mesh.nodes):  # each search visits a node once (`dag`)
                 msg = "the history of a 2D triangulation goes round in circles"
                 raise InternalError(msg)
         if not busy:
-            return EMPTY, visited
+            return IDLE, visited

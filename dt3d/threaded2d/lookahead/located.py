@@ -1,64 +1,99 @@
-"""Sites that a thread has located ahead of their insertion: in hand.
+"""Sites that a thread has located ahead of their insertion.
 
 By the time of its insertion a site's leaf may have been subdivided or flipped, by others or by the thread
-itself; the location goes on from there. What the insertion will need is asked for before.
+itself; the location goes on from there. What the insertion will need is loaded before.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
-from ..in_place.walk import walk_history
-from ..mesh import HINT, IN_HAND, NEXT, VISITED
+from .. import columns as c
+from ..location import WALK, walk_history
 from ..queue import ITEM_NODE, ITEM_SITE
 from ..work_sharing import next_site
-from .interleaved import EMPTY, LANE_NODE, LANE_SITE, LANES, advance, start
+from .interleaved import IDLE, SEARCH_NODE, SEARCH_SITE, SEARCHES, advance, idle_searches, start
 from .prefetch import prefetch_around, prefetch_beyond
 
-AT_ONCE = 8
+MOST_LOCATED = 8  # of a thread
 
 
-def empty_hands(threads: int) -> np.ndarray:
-    """Sites and their leaves for each thread, and one that is helped: int64 (threads, AT_ONCE + 1, 2)."""
-    return np.empty((threads, AT_ONCE + 1, 2), np.int64)
+class Lookahead(NamedTuple):
+    """What each thread locates ahead.
+
+    Attributes
+    ----------
+    searches : int64 (threads, SEARCHES, 4)
+        On their way; see `interleaved`.
+    located : int64 (threads, MOST_LOCATED + 1, 2)
+        Sites and their leaves, and one of another thread that is helped.
+    """
+
+    searches: np.ndarray
+    located: np.ndarray
+
+
+def nothing_located(threads: int) -> Lookahead:
+    """The beginning of a run."""
+    return Lookahead(idle_searches(threads), np.empty((threads, MOST_LOCATED + 1, 2), np.int64))
 
 
 @cached_njit(forceinline=True)
-def locate_one(points, nodes, state, sites, lanes, hands, me, walking, w):
-    """Locate one more site of thread ``me``, into its hands; whether one was left."""
-    if walking:
-        q = next_site(state, sites, me)
+def _next_start(mesh, me, schedule):
+    """The next site of thread ``me``, which now is on its way; -1 where there is none left."""
+    q = next_site(mesh, schedule, me)
+    if q >= 0:
+        mesh.state[me, c.NEXT] += 1
+    return q
+
+
+@cached_njit(forceinline=True)
+def locate_ahead(mesh, me, schedule, lookahead, location):
+    """Locate one more site of thread ``me``; whether one was left."""
+    state = mesh.state
+    if location == WALK:
+        q = _next_start(mesh, me, schedule)
         if q < 0:
             return False
-        state[me, NEXT] += 1
-        t, visited = walk_history(points, nodes, state[me, HINT], q, w)
-        state[me, HINT] = t
+        t, visited = walk_history(mesh, state[me, c.HINT], q)
+        state[me, c.HINT] = t
     else:
-        for i in range(LANES):
-            if lanes[i, LANE_SITE] == EMPTY:
-                q = next_site(state, sites, me)
+        searches = lookahead.searches[me]
+        for i in range(SEARCHES):
+            if searches[i, SEARCH_SITE] == IDLE:
+                q = _next_start(mesh, me, schedule)
                 if q < 0:
                     break
-                state[me, NEXT] += 1
-                start(points, nodes, lanes, i, q, w)
-        i, visited = advance(points, nodes, lanes, w)
-        if i == EMPTY:
+                start(mesh, searches, i, q)
+        i, visited = advance(mesh, searches)
+        if i == IDLE:
             return False
-        q, t = lanes[i, LANE_SITE], lanes[i, LANE_NODE]
-        lanes[i, LANE_SITE] = EMPTY
-    state[me, VISITED] += visited
-    at = state[me, IN_HAND]
-    hands[at, ITEM_SITE], hands[at, ITEM_NODE] = q, t
-    state[me, IN_HAND] = at + 1
+        q, t = searches[i, SEARCH_SITE], searches[i, SEARCH_NODE]
+        searches[i, SEARCH_SITE] = IDLE
+    state[me, c.VISITED] += visited
+    end = state[me, c.LOCATED_END]
+    lookahead.located[me, end, ITEM_SITE], lookahead.located[me, end, ITEM_NODE] = q, t
+    state[me, c.LOCATED_END] = end + 1
     return True
 
 
 @cached_njit(forceinline=True)
-def prepare(points, nodes, hands, at, count):
-    """Ask for what the insertions after that of hands[at] will need: first the surroundings of a site's leaf,
-    then what lies beyond them."""
-    if at + 2 < count:
-        prefetch_around(points, nodes, hands[at + 2, ITEM_NODE])
-    if at + 1 < count:
-        prefetch_beyond(points, nodes, hands[at + 1, ITEM_NODE])
+def next_located(mesh, me, lookahead):
+    """The next located site of thread ``me``, of which there must be one, and the leaf it was located in.
+
+    What the insertions after it will need begins to be loaded: first the surroundings of a site's leaf, then
+    what lies beyond them.
+    """
+    state, located = mesh.state, lookahead.located[me]
+    at, end = state[me, c.LOCATED_AT], state[me, c.LOCATED_END]
+    if at + 2 < end:
+        prefetch_around(mesh, located[at + 2, ITEM_NODE])
+    if at + 1 < end:
+        prefetch_beyond(mesh, located[at + 1, ITEM_NODE])
+        state[me, c.LOCATED_AT] = at + 1
+    else:
+        state[me, c.LOCATED_AT] = state[me, c.LOCATED_END] = 0
+    return located[at, ITEM_SITE], located[at, ITEM_NODE]

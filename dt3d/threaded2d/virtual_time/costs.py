@@ -3,32 +3,23 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.unowned import unowned
-from ...predicates import work_array
+from ...ordering.along_curve import along_curve_in_plane
+from .. import columns as c
 from .. import sequential
+from ..columns import triangle
 from ..configuration import Options
 from ..first import first_triangle
 from ..input_subdivision import insertion_order
-from ..mesh import (
-    CHANGE_CYCLES,
-    CHILD,
-    FLIPS,
-    INSERTED,
-    LOCATION_CYCLES,
-    NEIGHBOR,
-    USED,
-    VISITED,
-    Store,
-)
-from ..order import along_curve
+from ..mesh import Store
 from ..pool import touches
 from ..steps import now
-from ..work_sharing import Sites, share
+from ..work_sharing import Schedule, share
 
 # Not measured, but of the usual size on today's processors: seconds.
 QUEUE = 50e-9  # elements put or taken together: a cache line from another core, a compare-and-swap
@@ -40,8 +31,7 @@ SAMPLE = 64  # triangles whose circum-circle tests are timed: as few as are at h
 ROUNDS = 200
 
 
-@dataclass(frozen=True)
-class Costs:
+class Costs(NamedTuple):
     """Seconds of the operations.
 
     Attributes
@@ -67,30 +57,29 @@ class Costs:
     slice: float = SLICE
 
 
-def prepared(points: np.ndarray, options: Options) -> tuple[Store, Sites]:
+def prepared(points: np.ndarray, options: Options) -> tuple[Store, Schedule]:
     """The store of a run, with room for all it may need, and its sites."""
-    site, _ = along_curve(points)
+    site, _ = along_curve_in_plane(points)
     if options.order == "random":
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
-    order, bounds = insertion_order(rows, options.order, options.subdivision, options.parts, options.seed)
-    first, order, bounds = first_triangle(rows, order, bounds)
+    first, order, bounds = first_triangle(rows, *insertion_order(rows, options))
     store = Store(rows, first, options.threads, 24 * len(rows) + 4096 * options.threads)
     return store, share(order, bounds)
 
 
 @cached_njit(nogil=True)
-def _tests(points, nodes, leaves, sites, rounds, w):
+def _tests(mesh, leaves, sites, rounds):
     """Test leaves and their neighbours against sites far away, as the pool's are; how many tests touched."""
-    points, nodes, w = unowned(points), unowned(nodes), unowned(w)
+    mesh = unowned(mesh)
     touched = 0
     for i in range(rounds):
         q = sites[i % len(sites)]
         for x in range(len(leaves)):
             t = leaves[x]
-            touched += touches(points, nodes, t, q, w)
+            touched += touches(mesh, t, q)
             for k in range(3):
-                touched += touches(points, nodes, nodes[t, NEIGHBOR + k] >> 2, q, w)
+                touched += touches(mesh, triangle(mesh.nodes[t, c.NEIGHBOR + k]), q)
     return touched
 
 
@@ -100,21 +89,20 @@ def measure(points: np.ndarray, order: str = "random", repeats: int = 3) -> Cost
     rng = np.random.default_rng(0)
     found = []
     for _ in range(repeats):
-        store, sites = prepared(points, options)
-        w = work_array(store.points)
+        store, schedule = prepared(points, options)
+        mesh, tools = store.mesh(), sequential.tools(store, schedule, options)
         ticks, clock = now(), time.perf_counter()
-        sequential.run(store.points, store.nodes, store.shared, store.state, sites, 0, False, w)
+        sequential.METHOD.run(mesh, 0, tools)
         per_cycle = (time.perf_counter() - clock) / (now() - ticks)
         counts = store.state[0]
-        visit = counts[LOCATION_CYCLES] * per_cycle / max(1, counts[VISITED])
-        node = counts[CHANGE_CYCLES] * per_cycle / (3 * max(1, counts[INSERTED]) + 2 * counts[FLIPS])
+        visit = counts[c.LOCATION_CYCLES] * per_cycle / max(1, counts[c.VISITED])
+        node = counts[c.CHANGE_CYCLES] * per_cycle / (3 * max(1, counts[c.INSERTED]) + 2 * counts[c.FLIPS])
 
-        used = int(store.shared[USED, 0])
-        leaves = rng.choice(np.flatnonzero(store.nodes[:used, CHILD] < 0), SAMPLE)
+        leaves = rng.choice(np.flatnonzero(store.nodes[: store.used, c.CHILD] < 0), SAMPLE)
         others = rng.integers(0, len(store.points), SAMPLE)
-        _tests(store.points, store.nodes, leaves, others, 1, w)
+        _tests(mesh, leaves, others, 1)
         clock = time.perf_counter()
-        _tests(store.points, store.nodes, leaves, others, ROUNDS, w)
+        _tests(mesh, leaves, others, ROUNDS)
         test = (time.perf_counter() - clock) / (4 * SAMPLE * ROUNDS)
         found.append((visit, node, test))
     return Costs(*(float(x) for x in np.median(np.array(found), axis=0)))

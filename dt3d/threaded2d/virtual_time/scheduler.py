@@ -1,4 +1,4 @@
-"""Virtual time: the methods' own operations on 1 to 64 simulated processing elements.
+"""Virtual time: the methods' own steps on 1 to 64 simulated processing elements.
 
 A scheduler lets the element whose clock is least take the next step of its thread, which is the very step
 that real threads take, on the very structure. It then sets the clock forward by what the step has counted
@@ -14,35 +14,26 @@ threads than elements.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.unowned import unowned
-from ...predicates import work_array
-from .. import batch, circumcircle, optimistic
+from .. import columns as c
 from ..configuration import Options
 from ..dag import locate
+from ..driver import METHODS
 from ..flips import insert
-from ..illegal_edges import empty_notes
-from ..lookahead.interleaved import empty_lanes
-from ..lookahead.located import empty_hands
-from ..mesh import CHILD, EXCEPTIONS, FLIPS, GIVEN_UP, INSERTED, NEXT, RETRIES, TESTS, VISITED, WAITS
 from ..patience import STEP, strive
-from ..pool import empty_pool
-from ..queue import empty_queue
-from ..steps import CHANGED, FINISHED, WAITING
-from ..work_sharing import next_site, unowned_sites
+from ..steps import CHANGED, FINISHED, LOCKED, QUEUED, WAITING, specialised
+from ..work_sharing import next_site
 from .costs import Costs, prepared
 
-SEQUENTIAL, BATCH, CIRCUMCIRCLE, OPTIMISTIC, PESSIMISTIC = range(5)
-_METHODS = {
-    "sequential": SEQUENTIAL,
-    "batch": BATCH,
-    "circumcircle": CIRCUMCIRCLE,
-    "optimistic": OPTIMISTIC,
-    "pessimistic": PESSIMISTIC,
-}
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 MOST_ELEMENTS = 64
 
 
@@ -60,57 +51,22 @@ class Simulation:
     triangles: int
 
 
-@cached_njit
-def _counted(state, k):
-    return state[k, VISITED], state[k, FLIPS], state[k, INSERTED], state[k, TESTS]
+step: Any = None  # a method's own, see `specialised`
 
 
 @cached_njit(forceinline=True)
-def _step(
-    points, nodes, shared, state, sites,
-    pool, notes, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
-):  # fmt: skip
-    """A step of thread k."""
-    if method == BATCH:
-        if k == len(state) - 1:
-            return batch.specialised_step(points, nodes, shared, state, cells, hands[k], k, False, w)
-        return batch.search_step(
-            points, nodes, shared, state, sites, cells, lanes[k], hands[k], k, False, helping, w
-        )
-    if method == CIRCUMCIRCLE:
-        return circumcircle.step(
-            points, nodes, shared, state, sites, pool, notes[k], lanes[k], hands[k], k, False, w
-        )
-    return optimistic.step(points, nodes, shared, state, sites, held[k], cavity[k], rim[k], k, w)
+def _counted(state, k):
+    return state[k, c.VISITED], state[k, c.FLIPS], state[k, c.INSERTED], state[k, c.TESTS]
 
 
 @cached_njit(nogil=True)
-def _simulate(
-    points,
-    nodes,
-    shared,
-    state,
-    sites,
-    pool,
-    notes,
-    cells,
-    lanes,
-    hands,
-    held,
-    cavity,
-    rim,
-    method,
-    helping,
-    elements,
-    costs,
-    w,
-):
-    """Seconds of the last element to end, and of all elements that were not spent waiting."""
-    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
-    sites, pool, cells, w = unowned_sites(sites), unowned(pool), unowned(cells), unowned(w)
-    notes, lanes, hands = unowned(notes), unowned(lanes), unowned(hands)
-    held, cavity, rim = unowned(held), unowned(cavity), unowned(rim)
-    visit, node, test, queue, locks, wait, time_slice = costs
+def _simulate(mesh, tools, elements, costs, prices):
+    """Seconds of the last element to end, and of all elements that were not spent waiting.
+
+    ``prices`` are the seconds of what a step returns, beside those of what it has counted.
+    """
+    mesh, tools = unowned(mesh), unowned(tools)
+    state = mesh.state
     threads = len(state)
     clock, since = np.zeros(elements), np.zeros(elements)
     running = np.full(elements, -1)
@@ -120,9 +76,9 @@ def _simulate(
         # the specialised thread of the batch method, which is the last, comes first
         ready[tail] = threads - 1 - k
         tail += 1
-    alive, busy, last, effort = threads, 0.0, 0.0, 0
+    alive, busy, last = threads, 0.0, 0.0
     while alive > 0:
-        effort = strive(shared, state, 0, effort, STEP)
+        strive(mesh, 0, STEP)
         e = 0
         for i in range(1, elements):
             if clock[i] < clock[e]:
@@ -134,49 +90,51 @@ def _simulate(
                 since[e] = clock[e]
             else:
                 # nothing to do until another element gives a thread away
-                clock[e] += wait
+                clock[e] += costs.wait
                 continue
         k = running[e]
-        v, f, i, c = _counted(state, k)
-        in_hand = state[k, INSERTED]
-        did = _step(
-            points, nodes, shared, state, sites,
-            pool, notes, cells, lanes, hands, held, cavity, rim, method, helping, k, w,
-        )  # fmt: skip
-        v2, f2, i2, c2 = _counted(state, k)
-        if did == FINISHED:
+        visited, flips, inserted, tests = _counted(state, k)
+        outcome = step(mesh, k, tools)
+        visited2, flips2, inserted2, tests2 = _counted(state, k)
+        if outcome == FINISHED:
             alive -= 1
             running[e] = -1
             last = max(last, clock[e])
             continue
-        spent = visit * (v2 - v) + node * 2 * (f2 - f) + test * (c2 - c)
-        if method == CIRCUMCIRCLE:
-            # the subdivision is counted with the end of the insertion
-            spent += node * 3 * (i2 - in_hand)
-        elif method == BATCH:
-            spent += node * 3 * (i2 - in_hand) + (queue if did == CHANGED else 0.0)
-        else:
-            spent += node * 3 * (i2 - in_hand) + (locks if did == CHANGED and i2 == in_hand else 0.0)
+        spent = (
+            costs.visit * (visited2 - visited)
+            + costs.node * 2 * (flips2 - flips)
+            + costs.test * (tests2 - tests)
+        )
+        # the subdivision is counted with the end of the insertion
+        spent += costs.node * 3 * (inserted2 - inserted) + prices[outcome]
         busy += spent
-        if did == WAITING:
-            spent += wait
-            state[k, WAITS] += 1
+        if outcome == WAITING:
+            spent += costs.wait
+            state[k, c.WAITS] += 1
         clock[e] += spent
         last = max(last, clock[e])
-        if head != tail and (did == WAITING or clock[e] - since[e] > time_slice):
+        if head != tail and (outcome == WAITING or clock[e] - since[e] > costs.slice):
             ready[tail] = k
             tail = (tail + 1) % (threads + 1)
             running[e] = -1
     return last, busy
 
 
+@cache
+def _simulation(method: str) -> Callable[..., tuple[float, float]]:
+    """The scheduler of a method's steps."""
+    return specialised(_simulate, __name__, method, step=METHODS[method].step)
+
+
 @cached_njit(nogil=True)
-def _simulate_critical(points, nodes, shared, state, sites, elements, costs, w):
-    """The pessimistic method, and with one element the sequential one: as long as an element is in the
-    critical section, others that come to it wait; one thread on each element."""
-    points, nodes, shared, state = unowned(points), unowned(nodes), unowned(shared), unowned(state)
-    sites, w = unowned_sites(sites), unowned(w)
-    visit, node, test, queue, locks, wait, time_slice = costs
+def _simulate_critical(mesh, schedule, elements, costs):
+    """The pessimistic method, and with one element the sequential one; one thread on each element.
+
+    As long as an element is in the critical section, others that come to it wait.
+    """
+    mesh, schedule = unowned(mesh), unowned(schedule)
+    state = mesh.state
     clock = np.zeros(elements)
     free, busy = 0.0, 0.0
     left = elements
@@ -187,26 +145,36 @@ def _simulate_critical(points, nodes, shared, state, sites, elements, costs, w):
         for i in range(elements):
             if not ended[i] and (e < 0 or clock[i] < clock[e]):
                 e = i
-        q = next_site(state, sites, e)
+        q = next_site(mesh, schedule, e)
         if q < 0:
             ended[e] = True
             left -= 1
             last = max(last, clock[e])
             continue
-        t, visited = locate(points, nodes, q, w)
-        before = state[e, FLIPS]
-        insert(points, nodes, shared, state, e, t, q, 0, w)
-        change = node * (3 + 2 * (state[e, FLIPS] - before))
-        state[e, INSERTED] += 1
-        state[e, NEXT] += 1
-        entered = clock[e] + visit * visited
+        t, visited = locate(mesh, q)
+        before = state[e, c.FLIPS]
+        insert(mesh, e, t, q, 0)
+        change = costs.node * (3 + 2 * (state[e, c.FLIPS] - before))
+        state[e, c.INSERTED] += 1
+        state[e, c.NEXT] += 1
+        entered = clock[e] + costs.visit * visited
         if entered < free:
-            state[e, WAITS] += 1
-            entered = free + wait
-        busy += visit * visited + change
+            state[e, c.WAITS] += 1
+            entered = free + costs.wait
+        busy += costs.visit * visited + change
         clock[e] = entered + change
         free = clock[e]
     return last, busy
+
+
+def _prices(method: str, costs: Costs) -> np.ndarray:
+    """Seconds of each outcome of a step."""
+    prices = np.zeros(6)
+    if method == "batch":
+        prices[[CHANGED, QUEUED]] = costs.queue
+    elif method == "optimistic":
+        prices[LOCKED] = costs.locks
+    return prices
 
 
 def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) -> Simulation:
@@ -232,42 +200,25 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
     if options.location != "dag":
         msg = f"virtual time has location='dag' only, got {options.location!r}"
         raise ValueError(msg)
-    method = _METHODS[options.method]
-    if method in (SEQUENTIAL, PESSIMISTIC):
-        options = replace(options, threads=elements if method == PESSIMISTIC else 1)
-    store, sites = prepared(points, options)
-    n = len(store.points)
-    w = work_array(store.points)
-    price = (costs.visit, costs.node, costs.test, costs.queue, costs.locks, costs.wait, costs.slice)
-    common = (store.points, store.nodes, store.shared, store.state, sites)
-    if method in (SEQUENTIAL, PESSIMISTIC):
-        seconds, busy = _simulate_critical(*common, options.threads, price, w)
-        elements = options.threads
+    if options.method in ("sequential", "pessimistic"):
+        elements = elements if options.method == "pessimistic" else 1
+        options = replace(options, threads=elements)
+        store, schedule = prepared(points, options)
+        seconds, busy = _simulate_critical(store.mesh(), schedule, elements, costs)
     else:
-        locking = method == OPTIMISTIC
-        shape = (options.threads if locking else 1, 4 * n + 64 if locking else 1)
-        scratch = (
-            np.empty(shape, np.int32),
-            np.empty(shape, np.int32),
-            np.empty((shape[0], 3 * shape[1]), np.int32),
-        )
-        tools = (
-            empty_pool(options.threads),
-            empty_notes(options.threads),
-            empty_queue(max(2, options.queue_length)),
-            empty_lanes(options.threads),
-            empty_hands(options.threads),
-        )
-        seconds, busy = _simulate(*common, *tools, *scratch, method, options.helping, elements, price, w)
+        store, schedule = prepared(points, options)
+        tools = METHODS[options.method].tools(store, schedule, options)
+        prices = _prices(options.method, costs)
+        seconds, busy = _simulation(options.method)(store.mesh(), tools, elements, costs, prices)
     s = store.state.sum(axis=0)
-    leaves = int((store.nodes[:, CHILD] < 0).sum())
+    leaves = int((store.nodes[:, c.CHILD] < 0).sum())
     return Simulation(
         seconds=float(seconds),
         busy=float(busy / (seconds * elements)),
-        waits=int(s[WAITS]),
-        retries=int(s[RETRIES]),
-        exceptions=int(s[EXCEPTIONS]),
-        given_up=int(s[GIVEN_UP]),
-        tests=int(s[TESTS]),
+        waits=int(s[c.WAITS]),
+        retries=int(s[c.RETRIES]),
+        exceptions=int(s[c.EXCEPTIONS]),
+        given_up=int(s[c.GIVEN_UP]),
+        tests=int(s[c.TESTS]),
         triangles=leaves,
     )

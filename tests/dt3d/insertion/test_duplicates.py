@@ -11,7 +11,10 @@ import pytest
 
 import dt3d
 from dt3d._input import first_copies
-from dt3d.insertion import loop, order
+from dt3d.insertion import driver
+from dt3d.ordering import along_curve
+from dt3d.ordering.along_curve import along_curve_in_space
+from dt3d.ordering.duplicates import separate_copies
 
 from ..exact import validate
 from ..families import tetrahedra
@@ -20,8 +23,10 @@ CASES = Path(__file__).parents[3].parent / "shared" / "cases"
 
 
 def crowded_cell(n, exponent):
-    """A tetrahedron of about 1; n sites of a small lattice times 2^exponent; in one of its cells two sites
-    that are 2^-70 times as near each other, and a copy of one of them."""
+    """A tetrahedron of about 1, n sites of a small lattice times 2^exponent, and near ones.
+
+    In one cell of the lattice lie two sites that are 2^-70 times as near each other, and a copy of one.
+    """
     rng = np.random.default_rng(0)
     cell = np.unique(np.ldexp(rng.integers(-8, 9, (n, 3)).astype(float), exponent), axis=0)
     a, b = [np.ldexp(1.0, exponent - 70), 0, 0], [np.ldexp(1.0, exponent - 71), 0, 0]
@@ -87,9 +92,9 @@ def at_once(work, n):
 @pytest.mark.parametrize("seed", range(4))
 def test_equal_sites_are_together_on_the_curve(name, seed):
     sites = np.random.default_rng(seed).permutation(SETS[name])
-    along = order.along_curve(sites, at_once)
+    along = along_curve_in_space(sites, at_once)
     assert sorted(along.tolist()) == list(range(len(sites)))
-    used, pairs = order.separate_copies(sites, along)
+    used, pairs = separate_copies(sites, along)
     want, copies = first_copies(sites)
     np.testing.assert_array_equal(np.sort(along[:used]), np.sort(want))
     np.testing.assert_array_equal(pairs, copies)
@@ -99,8 +104,8 @@ def test_equal_sites_are_together_on_the_curve(name, seed):
 @sets("crowded cell 2^-910", "crowded cell 2^-960", "subnormal cell", "signed zeros")
 @pytest.mark.parametrize("threads", [1, 2])
 def test_copies_in_a_crowded_cell_are_not_inserted(name, threads, monkeypatch):
-    monkeypatch.setattr(loop, "available_cores", lambda: 2)
-    monkeypatch.setattr("dt3d.insertion.crew.LEAST_PIECE", 20)
+    monkeypatch.setattr(driver, "available_cores", lambda: 2)
+    monkeypatch.setattr("dt3d.insertion.team.LEAST_SITES_PER_THREAD", 20)
     points = SETS[name]
     tri = dt3d.Delaunay(points, threads=threads)
     assert tri.stats.threads == threads
@@ -113,14 +118,14 @@ def test_copies_in_a_crowded_cell_are_not_inserted(name, threads, monkeypatch):
 def test_the_levels_of_cells_are_bounded():
     """Every level leaves a small part of the extent, so the smallest float64 is reached before the bound."""
     sites = np.ldexp(1.0, np.repeat(np.arange(1023, -1075, -1), 15))[:, None] * [1, -1, 0.5]
-    along = order.along_curve(sites, at_once)
+    along = along_curve_in_space(sites, at_once)
     assert sorted(along.tolist()) == list(range(len(sites)))
 
 
 def test_levels_beyond_the_bound_are_an_internal_error(monkeypatch):
-    monkeypatch.setattr(order, "MOST_LEVELS", 3)
+    monkeypatch.setattr(along_curve, "MOST_LEVELS", 3)
     with pytest.raises(dt3d.InternalError, match="share a cell after 4 subdivisions.*please report"):
-        order.along_curve(cells_within_cells(17), at_once)
+        along_curve_in_space(cells_within_cells(17), at_once)
 
 
 @pytest.mark.parametrize("name", ["s13399", "s13399min"])

@@ -5,7 +5,7 @@ import pytest
 import scipy.spatial
 
 import dt3d
-from dt3d.insertion import loop
+from dt3d.insertion import driver
 
 from ..exact import canonical, check_indices, check_neighbors, validate
 from ..families import skew_lines
@@ -22,7 +22,7 @@ def test_equals_scipy(n):
 
 
 def test_memory_grows_where_the_output_is_quadratic(monkeypatch):
-    monkeypatch.setattr(loop, "SLOTS_PER_SITE", 0)  # begin with 64
+    monkeypatch.setattr(driver, "SLOTS_PER_SITE", 0)  # begin with 64
     tri = dt3d.Delaunay(skew_lines(40))
     assert len(tri.simplices) == 39 * 39
     validate(tri)

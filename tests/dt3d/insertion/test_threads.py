@@ -1,5 +1,4 @@
-"""One answer from any number of threads, in any interleaving; threads that end when something goes
-wrong."""
+"""One answer from any number of threads, in any interleaving; and threads end when something goes wrong."""
 
 import threading
 import time
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 
 import dt3d
-from dt3d.insertion import crew, loop
+from dt3d.insertion import driver, team
 
 from ..families import grid, on_sphere, tetrahedra
 
@@ -34,18 +33,17 @@ def sets(*names):
 @pytest.fixture
 def eight_cores(monkeypatch):
     """As many threads as are asked for, where there are fewer cores."""
-    monkeypatch.setattr(loop, "available_cores", lambda: 8)
+    monkeypatch.setattr(driver, "available_cores", lambda: 8)
 
 
 @pytest.fixture
 def yielding(monkeypatch, eight_cores):
-    """Pieces, stretches and blocks so small that threads meet often, and pauses at random between
-    stretches."""
-    monkeypatch.setattr(crew, "LEAST_PIECE", 20)
-    monkeypatch.setattr(crew, "STRETCH", 7)
-    monkeypatch.setattr(crew, "PATIENCE", 0.001)
-    monkeypatch.setattr(loop, "LARGEST_BLOCK", 64)
-    real = crew.insert
+    """Pieces, stretches and blocks so small that threads meet often, and random pauses between stretches."""
+    monkeypatch.setattr(team, "LEAST_SITES_PER_THREAD", 20)
+    monkeypatch.setattr(team, "SITES_PER_CALL", 7)
+    monkeypatch.setattr("dt3d._numba.threads.SECONDS_BETWEEN_LOOKS", 0.001)
+    monkeypatch.setattr(driver, "LARGEST_BLOCK", 64)
+    real = team.insert
     pauses = np.random.default_rng()
 
     def insert(*arguments):
@@ -53,7 +51,7 @@ def yielding(monkeypatch, eight_cores):
             time.sleep(pauses.random() * 1e-3)
         return real(*arguments)
 
-    monkeypatch.setattr(crew, "insert", insert)
+    monkeypatch.setattr(team, "insert", insert)
 
 
 def assert_one_answer(points, runs):
@@ -92,13 +90,13 @@ def test_one_answer_at_full_speed(eight_cores):
 
 
 def test_no_more_threads_than_cores(monkeypatch):
-    monkeypatch.setattr(loop, "available_cores", lambda: 2)
+    monkeypatch.setattr(driver, "available_cores", lambda: 2)
     for asked, got in ((1, 1), (2, 2), (8, 2), (None, 1)):
         assert dt3d.Delaunay(SETS["uniform"], threads=asked).stats.threads == got
 
 
 def test_memory_grows_between_passes(yielding, monkeypatch):
-    monkeypatch.setattr(loop, "SLOTS_PER_SITE", 1)
+    monkeypatch.setattr(driver, "SLOTS_PER_SITE", 1)
     points = SETS["uniform"]
     tri = dt3d.Delaunay(points, threads=3)
     np.testing.assert_array_equal(tetrahedra(tri), tetrahedra(dt3d.Delaunay(points, threads=1)))
@@ -106,7 +104,7 @@ def test_memory_grows_between_passes(yielding, monkeypatch):
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_what_a_callback_raises_ends_all_threads(error, yielding, monkeypatch):
-    monkeypatch.setattr(loop, "STRETCH", 100)
+    monkeypatch.setattr(driver, "SITES_PER_REPORT", 100)
 
     def stop(progress):
         raise error
@@ -117,7 +115,7 @@ def test_what_a_callback_raises_ends_all_threads(error, yielding, monkeypatch):
 
 
 def test_what_one_thread_raises_ends_the_others(yielding, monkeypatch):
-    real = crew.insert
+    real = team.insert
     calls = []
 
     def insert(*arguments):
@@ -126,7 +124,7 @@ def test_what_one_thread_raises_ends_the_others(yielding, monkeypatch):
             raise MemoryError
         return real(*arguments)
 
-    monkeypatch.setattr(crew, "insert", insert)
+    monkeypatch.setattr(team, "insert", insert)
     with pytest.raises(MemoryError):
         dt3d.Delaunay(SETS["uniform"], threads=4)
     assert calls[59] is not threading.main_thread()
@@ -134,7 +132,7 @@ def test_what_one_thread_raises_ends_the_others(yielding, monkeypatch):
 
 
 def test_progress_of_threads(yielding, monkeypatch):
-    monkeypatch.setattr(loop, "STRETCH", 100)
+    monkeypatch.setattr(driver, "SITES_PER_REPORT", 100)
     seen = []
     dt3d.Delaunay(SETS["uniform"], threads=4, callback=seen.append)
     assert [p.iteration for p in seen] == list(range(1, len(seen) + 1))

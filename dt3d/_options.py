@@ -1,0 +1,148 @@
+"""Which options of the two public classes go together, and what the errors say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from ._input import check_seed, word_of
+
+if TYPE_CHECKING:
+    import scanvec as sv
+
+    from ._stats import Progress
+
+Method = Literal["auto", "insertion", "extrapolation"]
+Robustness = Literal["exact", "perturb"]
+PlaneMethod = Literal["auto", "sequential", "batch", "circumcircle", "pessimistic", "optimistic"]
+Order = Literal["brio", "random"]
+Location = Literal["dag", "walk"]
+Subdivision = Literal["random", "x-slabs", "distance", "curve"]
+
+MOST_THREADS_IN_PLANE = 64
+
+
+def check_space_options(
+    method: str,
+    robustness: str,
+    machine: sv.Machine | None,
+    threads: int | None,
+    callback: Callable[[Progress], object] | None,
+    dtype: npt.DTypeLike | None,
+) -> tuple[str, np.dtype]:
+    """The method and the working precision that `dt3d.Delaunay` has to take.
+
+    Raises
+    ------
+    ValueError
+        If an option is unknown, or does not go with the others.
+    """
+    working = _working_precision(dtype)
+    if callback is not None and not callable(callback):
+        msg = f"callback must be callable, got {callback!r}"
+        raise ValueError(msg)
+    *first, last = map(repr, get_args(Method))
+    if method not in get_args(Method):
+        msg = f"method must be {', '.join(first)} or {last}, got {method!r}"
+        raise ValueError(msg)
+    if robustness not in get_args(Robustness):
+        msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
+        raise ValueError(msg)
+    if machine is not None and not _is_machine(machine):
+        msg = f"machine must be a scanvec machine, such as scanvec.Simulated(processors=32), got {machine!r}"
+        raise ValueError(msg)
+    if working == np.float32 and robustness == "exact":
+        msg = "dtype='float32' cannot hold the sites exactly; it goes with robustness='perturb'"
+        raise ValueError(msg)
+    only_extrapolation = machine is not None or robustness == "perturb"
+    if method == "insertion" and only_extrapolation:
+        msg = (
+            "method='insertion' is exact, and runs on this CPU; machine and robustness='perturb' go with "
+            "method='extrapolation'"
+        )
+        raise ValueError(msg)
+    if method == "auto":
+        method = "extrapolation" if only_extrapolation else "insertion"
+    _check_threads(threads, method)
+    return method, working
+
+
+def _is_machine(machine: object) -> bool:
+    from scanvec import Machine  # and with it JAX, which the plane does not need
+
+    return isinstance(machine, Machine)
+
+
+def _check_threads(threads: int | None, method: str) -> None:
+    if threads is None:
+        return
+    if not _is_count(threads, 1):
+        msg = f"threads must be a positive integer, or None for as many as there are cores, got {threads!r}"
+        raise ValueError(msg)
+    if method != "insertion":
+        msg = f"threads={threads} goes with method='insertion'; what extrapolation runs on is its machine"
+        raise ValueError(msg)
+
+
+def _working_precision(dtype: npt.DTypeLike | None) -> np.dtype:
+    try:
+        working = np.dtype(np.float64 if dtype is None else dtype)
+    except TypeError:
+        working = None
+    if working is None or working not in (np.float32, np.float64):
+        msg = f"dtype must be float64 or float32, got {dtype!r}"
+        raise ValueError(msg)
+    return working
+
+
+def check_plane_options(
+    method: str,
+    threads: int | None,
+    order: str,
+    location: str,
+    queue_length: int | None,
+    subdivision: str,
+    seed: int,
+) -> int:
+    """The seed as compiled code takes it, if `dt3d.threaded2d.Delaunay` can take the options together.
+
+    Raises
+    ------
+    ValueError
+        If an option is unknown, or does not go with the others.
+    """
+    for name, value, kind in (
+        ("method", method, PlaneMethod),
+        ("order", order, Order),
+        ("location", location, Location),
+        ("subdivision", subdivision, Subdivision),
+    ):
+        if value not in get_args(kind):
+            msg = f"{name} must be one of {', '.join(map(repr, get_args(kind)))}, got {value!r}"
+            raise ValueError(msg)
+    for name, number, least in (("threads", threads, 1), ("queue_length", queue_length, 2)):
+        if number is not None and not _is_count(number, least):
+            msg = f"{name} must be an integer of at least {least}, got {number!r}"
+            raise ValueError(msg)
+    word = word_of(check_seed(seed))
+    if threads is not None and threads > MOST_THREADS_IN_PLANE:
+        msg = f"threads must be at most {MOST_THREADS_IN_PLANE}, got {threads}"
+        raise ValueError(msg)
+    if method == "sequential" and threads not in (None, 1):
+        msg = f"method='sequential' has one thread, got threads={threads}; choose another method"
+        raise ValueError(msg)
+    if method == "batch" and threads == 1:
+        msg = "method='batch' needs a searching and a specialised thread, got threads=1"
+        raise ValueError(msg)
+    if subdivision == "curve" and order == "random":
+        msg = "subdivision='curve' goes with order='brio', got order='random'"
+        raise ValueError(msg)
+    return word
+
+
+def _is_count(number: object, least: int) -> bool:
+    """Whether it is an integer, and no bool, of at least so much."""
+    return isinstance(number, int | np.integer) and not isinstance(number, bool) and bool(number >= least)

@@ -1,0 +1,1 @@
+"""The ledger: what a simulated machine did, step by step."""

@@ -1,0 +1,1 @@
+"""Machines: what each supplies, and how vectors lie on it."""

@@ -1,0 +1,1 @@
+"""Cost models: the time of a step from its counts."""

@@ -1,0 +1,1 @@
+"""Operations that are written once, for every machine."""
