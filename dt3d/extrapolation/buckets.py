@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
 from jax import Array
 
 import scanvec as sv
@@ -69,7 +70,7 @@ def bucket(sites: Point[sv.Vector]) -> Buckets:
     machine, n = sites.x.machine, len(sites.x)
     low = [float(sv.reduce(v, sv.MIN)) for v in sites]
     high = [float(sv.reduce(v, sv.MAX)) for v in sites]
-    grid = cubic_grid(low, high, n / SITES_PER_CELL, sites.x.dtype.type)
+    grid = cubic_grid(low, high, n / SITES_PER_CELL, sites.x.dtype)
     cell = machine.map(cell_of, sites, grid)
     counts = machine.full(int(grid.nx) * int(grid.ny) * int(grid.nz), 0, np.int32)
     counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, into=counts)
@@ -142,8 +143,9 @@ def morton_code(i: Array, j: Array, k: Array) -> Array:
     return code
 
 
-def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: type[np.floating]) -> HostGrid:
+def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: npt.DTypeLike) -> HostGrid:
     """Cubic cells over the box from low to high, about ``wanted`` of them."""
+    number = np.float32 if np.dtype(dtype) == np.float32 else np.float64
     extents = np.maximum(np.subtract(high, low), 0)
     # bisect for the side: the number of cells falls with it, in steps
     small, large = extents.max() / 2**20, max(extents.max(), np.finfo(np.float32).tiny)
@@ -157,11 +159,11 @@ def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: type[n
     fine, coarse = _divisions(extents, small), _divisions(extents, large)
     counts = fine if np.prod(fine) * np.prod(coarse) < wanted**2 else coarse
     side = max((extents / counts).max(), np.finfo(np.float32).tiny)
-    relative = 1e-3 if dtype is np.float32 else 1e-6
+    relative = 1e-3 if number is np.float32 else 1e-6
     greatest = float(np.abs([low, high]).max())
-    margin = relative * side + 4 * float(np.finfo(dtype).eps) * greatest
-    origin, end = (Point(*(dtype(v) for v in corner)) for corner in (low, high))
-    return Grid(origin, end, dtype(side), dtype(margin), *counts.astype(np.int32))
+    margin = relative * side + 4 * float(np.finfo(number).eps) * greatest
+    origin, end = (Point(*(number(v) for v in corner)) for corner in (low, high))
+    return Grid(origin, end, number(side), number(margin), *counts.astype(np.int32))
 
 
 def _divisions(extents: np.ndarray, side: float) -> np.ndarray:

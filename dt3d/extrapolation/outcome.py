@@ -24,6 +24,9 @@ class Counts(NamedTuple):
     exact_decisions: int
 
 
+NOTHING_DONE = Counts(0, 0, 0)
+
+
 @dataclass
 class Outcome:
     """What the loop found; vertices are rows of the sites it was given."""
@@ -33,7 +36,7 @@ class Outcome:
     iteration: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))  # int32 (m,)
     duplicates: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))  # int32 (k, 2)
     per_iteration: list[int] = field(default_factory=list)
-    counts: Counts = Counts(0, 0, 0)
+    counts: Counts = NOTHING_DONE
     inconsistencies: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
 

@@ -57,7 +57,7 @@ def total(terms: Iterable[Array]) -> Array:
 
 def epsilon(x: Array) -> float:
     """The unit roundoff (half an ulp of 1) of a number's dtype."""
-    eps: float = jnp.finfo(jnp.asarray(x).dtype).eps / 2  # type: ignore[no-untyped-call, assignment]
+    eps: float = jnp.finfo(jnp.asarray(x).dtype).eps / 2  # type: ignore[assignment]
     return eps
 
 

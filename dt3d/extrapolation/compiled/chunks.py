@@ -38,7 +38,7 @@ def points_at(points: Point[Array], index: Array) -> Point[Array]:
 
 def barrier(record: S) -> S:
     """The record, computed once for all that use it."""
-    once: S = jax.lax.optimization_barrier(record)  # type: ignore[no-untyped-call]
+    once: S = jax.lax.optimization_barrier(record)
     return once
 
 

@@ -22,7 +22,7 @@ from ..._errors import InconsistencyError
 from ..dead_faces import distinct_facets
 from ..faces import Face, both_sides
 from ..gift_wrapping import squared_circumradius
-from ..outcome import Counts, added
+from ..outcome import NOTHING_DONE, Counts, added
 from ..points import Point
 from ..warrants import NO_SITE
 from .decisions import Expansion, expand_exactly
@@ -48,7 +48,7 @@ def checked_facets(exact: ExactSites, facets: Face[sv.Vector]) -> tuple[CheckedF
         If none is found.
     """
     machine = exact.buckets.machine
-    total = Counts(0, 0, 0)
+    total = NOTHING_DONE
     for _ in range(MOST_REPAIRS):
         m = len(facets.a)
         faces = both_sides(facets)
