@@ -37,7 +37,7 @@ class Nearest(NamedTuple):
     site: Any
 
 
-def _examine(face: Frame, best: Nearest, site: Point, k: jax.Array) -> Nearest:
+def _examine(face: Frame, best: Nearest, site: Point[jax.Array], k: jax.Array) -> Nearest:
     distance = signed_distance(face, site)
     better = distance < best.distance
     return Nearest(jnp.where(better, distance, best.distance), jnp.where(better, k, best.site))

@@ -14,7 +14,7 @@ import scanvec as sv
 from .._errors import InconsistencyError, InconsistencyWarning
 from .._topology import hull_facets, open_edges
 from ..delaunay import Delaunay
-from ..extrapolation import extrapolate, normalise, perturb
+from ..extrapolation import Perturbed, extrapolate, normalise, perturb
 from ..extrapolation.perturbation import MAGNITUDE
 from ._output import new_table, panels, publish
 from .paper import TABLE3, TOO_MANY
@@ -68,7 +68,7 @@ def attempt(points: np.ndarray, mode: str) -> Outcome:
 def _with_the_perturbation_of_double(points: np.ndarray) -> Outcome:
     """Single precision, but sites moved no further than in double precision."""
     sites = perturb(normalise(points), np.dtype(np.float64), seed=0).astype(np.float32)
-    found = extrapolate(sv.Device(), sites, False)
+    found = extrapolate(sv.Device(), sites, Perturbed)
     missing = len(np.setdiff1d(np.arange(len(sites)), found.simplices))
     corners = sites[found.simplices].astype(float)
     flat = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0).sum())

@@ -6,93 +6,99 @@ will have been opened after the next round; the difference of the two is what th
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeAlias
 
 import jax.numpy as jnp
+from jax import Array
 
-from .points import Point
+from .points import Point, T
 
 
-class Grid(NamedTuple):
+class Grid(NamedTuple, Generic[T]):
     """The uniform cells: cell (i, j, k) is [origin + (i, j, k) side, origin + (i+1, j+1, k+1) side]."""
 
-    origin: Point  # the lowest corner of the sites' box
-    high: Point  # its highest corner
-    side: Any
-    slack: Any  # more than what rounding can have put a site, or a corner, to the wrong side
-    nx: Any
-    ny: Any
-    nz: Any
+    origin: Point[T]  # the lowest corner of the sites' box
+    high: Point[T]  # its highest corner
+    side: T
+    margin: T  # more than what rounding can have put a site, or a corner, to the wrong side
+    nx: T
+    ny: T
+    nz: T
 
 
-class Box(NamedTuple):
+HostGrid: TypeAlias = Grid[Any]  # of NumPy scalars, floats of the working precision and int32
+
+
+class Box(NamedTuple, Generic[T]):
     """Cells x0..x1, y0..y1, z0..z1, both ends included; empty when x1 < x0."""
 
-    x0: Any
-    x1: Any
-    y0: Any
-    y1: Any
-    z0: Any
-    z1: Any
+    x0: T
+    x1: T
+    y0: T
+    y1: T
+    z0: T
+    z1: T
 
 
-def _cell(coordinate: Any, origin: Any, side: Any, n: Any) -> Any:
+def cell_index(coordinate: Array, origin: Array, side: Array, n: Array) -> Array:
+    """Which of n cells of a side along an axis holds a coordinate; the nearest for those beyond."""
     # clipped as a float: where a sphere is huge the integer would overflow
     index = jnp.clip((coordinate - origin) / side, 0, n - 1)
     return jnp.where(jnp.isnan(index), 0, index).astype(jnp.int32)
 
 
-def cell_coordinates(p: Point, grid: Grid) -> tuple[Any, Any, Any]:
+def cell_coordinates(p: Point[Array], grid: Grid[Array]) -> tuple[Array, Array, Array]:
     """i, j, k of the cell that holds a point."""
-    i = _cell(p.x, grid.origin.x, grid.side, grid.nx)
-    j = _cell(p.y, grid.origin.y, grid.side, grid.ny)
-    k = _cell(p.z, grid.origin.z, grid.side, grid.nz)
+    i = cell_index(p.x, grid.origin.x, grid.side, grid.nx)
+    j = cell_index(p.y, grid.origin.y, grid.side, grid.ny)
+    k = cell_index(p.z, grid.origin.z, grid.side, grid.nz)
     return i, j, k
 
 
-def cell_of(p: Point, grid: Grid) -> Any:
+def cell_of(p: Point[Array], grid: Grid[Array]) -> Array:
     """The number of the cell that holds a point, x running fastest."""
     i, j, k = cell_coordinates(p, grid)
     return i + grid.nx * (j + grid.ny * k)
 
 
-def containment_box(low: Point, high: Point, grid: Grid) -> Box:
+def containment_box(low: Point[Array], high: Point[Array], grid: Grid[Array]) -> Box[Array]:
     """The least box of cells that contains the points from ``low`` to ``high``, within the grid."""
     return Box(
-        _cell(low.x, grid.origin.x, grid.side, grid.nx),
-        _cell(high.x, grid.origin.x, grid.side, grid.nx),
-        _cell(low.y, grid.origin.y, grid.side, grid.ny),
-        _cell(high.y, grid.origin.y, grid.side, grid.ny),
-        _cell(low.z, grid.origin.z, grid.side, grid.nz),
-        _cell(high.z, grid.origin.z, grid.side, grid.nz),
+        cell_index(low.x, grid.origin.x, grid.side, grid.nx),
+        cell_index(high.x, grid.origin.x, grid.side, grid.nx),
+        cell_index(low.y, grid.origin.y, grid.side, grid.ny),
+        cell_index(high.y, grid.origin.y, grid.side, grid.ny),
+        cell_index(low.z, grid.origin.z, grid.side, grid.nz),
+        cell_index(high.z, grid.origin.z, grid.side, grid.nz),
     )
 
 
-def corners(i: Any, j: Any, k: Any, grid: Grid) -> tuple[Point, Point]:
-    """Lowest and highest corner of a cell, widened by the grid's slack, within the box of the sites.
+def corners(i: Array, j: Array, k: Array, grid: Grid[Array]) -> tuple[Point[Array], Point[Array]]:
+    """Lowest and highest corner of a cell, widened by the grid's margin, within the box of the sites.
 
     No site lies beyond that box, so a face of the hull that lies in one of its sides has no cell above it.
     """
     low, high = [], []
     for number, origin, end in zip((i, j, k), grid.origin, grid.high, strict=True):
-        start = origin + number * grid.side - grid.slack
+        start = origin + number * grid.side - grid.margin
         low.append(jnp.maximum(start, origin))
-        high.append(jnp.minimum(start + (grid.side + 2 * grid.slack), end))
+        high.append(jnp.minimum(start + (grid.side + 2 * grid.margin), end))
     return Point(*low), Point(*high)
 
 
-def empty_box(like: Any) -> Box:
+def empty_box(like: Array) -> Box[Array]:
+    """A box without cells, of numbers like the given one."""
     zero = jnp.zeros_like(like)
     return Box(zero, zero - 1, zero, zero - 1, zero, zero - 1)
 
 
-def volume(box: Box) -> Any:
+def volume(box: Box[Array]) -> Array:
     """How many cells a box has."""
     sides = (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1) * (box.z1 - box.z0 + 1)
     return jnp.where(box.x1 < box.x0, 0, sides)
 
 
-def contains(outer: Box, inner: Box) -> Any:
+def contains(outer: Box[Array], inner: Box[Array]) -> Array:
     """Whether every cell of ``inner`` is one of ``outer``."""
     within = (
         (outer.x0 <= inner.x0) & (inner.x1 <= outer.x1)
@@ -102,13 +108,13 @@ def contains(outer: Box, inner: Box) -> Any:
     return within | (inner.x1 < inner.x0)
 
 
-def extend(dead: Box, target: Box, steps: Any) -> Box:
+def extend(dead: Box[Array], target: Box[Array], steps: Array) -> Box[Array]:
     """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions."""
 
-    def low(d: Any, t: Any) -> Any:
+    def low(d: Array, t: Array) -> Array:
         return jnp.maximum(jnp.minimum(d, t), d - steps)
 
-    def high(d: Any, t: Any) -> Any:
+    def high(d: Array, t: Array) -> Array:
         return jnp.minimum(jnp.maximum(d, t), d + steps)
 
     return Box(
@@ -118,15 +124,15 @@ def extend(dead: Box, target: Box, steps: Any) -> Box:
     )  # fmt: skip
 
 
-def difference_cell(new: Box, dead: Box, k: Any) -> tuple[Any, Any, Any]:
+def difference_cell(new: Box[Array], dead: Box[Array], k: Array) -> tuple[Array, Array, Array]:
     """Coordinates of the k-th cell of ``new`` that is not in ``dead``; dead is within new, or empty.
 
     The difference is six slabs: below and above dead in z, then in y, then in x. k is counted through them.
     """
     # an empty dead box counts as lying just above the new one
-    nothing = dead.x1 < dead.x0
-    z0 = jnp.where(nothing, new.z1 + 1, dead.z0)
-    z1 = jnp.where(nothing, new.z1, dead.z1)
+    is_empty = dead.x1 < dead.x0
+    z0 = jnp.where(is_empty, new.z1 + 1, dead.z0)
+    z1 = jnp.where(is_empty, new.z1, dead.z1)
     slabs = [
         Box(new.x0, new.x1, new.y0, new.y1, new.z0, z0 - 1),
         Box(new.x0, new.x1, new.y0, new.y1, z1 + 1, new.z1),

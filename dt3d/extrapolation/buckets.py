@@ -1,35 +1,37 @@
 """Buckets: the sites, reordered so that sites near each other are neighbours in the list.
 
 Teng et al. 1993, section 4.2, has uniform cells of about eight sites. They serve sites that fill space
-evenly; for clusters, surfaces and the like the same order carries a tree of boxes (`tree`).
+evenly; for clusters, surfaces and the like the same order carries a tree of boxes (`tree/boxes.py`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
+import numpy.typing as npt
+from jax import Array
 
 import scanvec as sv
 
-from .boxes import Grid, cell_coordinates, cell_of
+from .boxes import Grid, HostGrid, cell_coordinates, cell_of
 from .points import Point
 from .tree.boxes import Tree, build
 
 SITES_PER_CELL = 8  # the paper's average (section 7)
 # Sites are even if the cells that have any hold at most so many times that on average.
-EVEN = 2.0
-BITS = 21  # of a coordinate in a Morton code, three of which fill a word
+EVENNESS = 2.0
+BITS_PER_WORD = 21  # of a coordinate in a Morton code, three of which fill a word
 MOST_OF_A_CODE = 64  # sites with equal codes, before another word of finer codes tells them apart
 
 
 class Cells(NamedTuple):
     """The uniform cells, and where each one's sites are in the list; x runs fastest."""
 
-    grid: Grid
+    grid: HostGrid
     starts: sv.Vector  # int32 (cells,)
     counts: sv.Vector  # int32 (cells,)
 
@@ -48,30 +50,32 @@ class Buckets:
         None where the sites are not even.
     """
 
-    sites: Point
+    sites: Point[sv.Vector]
     origin: sv.Vector
     cells: Cells | None
 
     @property
     def machine(self) -> sv.Machine:
+        """Where the sites are."""
         return self.origin.machine
 
     @cached_property
     def tree(self) -> Tree:
+        """Boxes over the sites, for those that are not even."""
         return build(self.sites)
 
 
-def bucket(sites: Point) -> Buckets:
+def bucket(sites: Point[sv.Vector]) -> Buckets:
     """Order sites along a Morton curve: of the cells that hold them, where these are evenly filled."""
     machine, n = sites.x.machine, len(sites.x)
     low = [float(sv.reduce(v, sv.MIN)) for v in sites]
     high = [float(sv.reduce(v, sv.MAX)) for v in sites]
-    grid = _grid(low, high, n / SITES_PER_CELL, sites.x.dtype.type)
+    grid = cubic_grid(low, high, n / SITES_PER_CELL, sites.x.dtype)
     cell = machine.map(cell_of, sites, grid)
     counts = machine.full(int(grid.nx) * int(grid.ny) * int(grid.nz), 0, np.int32)
     counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, into=counts)
     occupied = int(sv.reduce(counts > 0, sv.ADD))
-    if n > EVEN * SITES_PER_CELL * occupied:
+    if n > EVENNESS * SITES_PER_CELL * occupied:
         return Buckets(*_along_curve(sites, low, high), None)
     code = machine.map(_code_of_cell, sites, grid)
     _, (ordered, origin, cell) = sv.sort(code, (sites, machine.iota(n), cell))
@@ -80,7 +84,9 @@ def bucket(sites: Point) -> Buckets:
     return Buckets(ordered, origin, Cells(grid, starts, counts))
 
 
-def _along_curve(sites: Point, low: list[float], high: list[float]) -> tuple[Point, sv.Vector]:
+def _along_curve(
+    sites: Point[sv.Vector], low: list[float], high: list[float]
+) -> tuple[Point[sv.Vector], sv.Vector]:
     """Sites and their origins in the order of fine Morton codes, of as many words as tell them apart."""
     machine, n = sites.x.machine, len(sites.x)
     extent = max(np.subtract(high, low))
@@ -104,27 +110,27 @@ def _longest_run(words: tuple[sv.Vector, ...]) -> int:
     return int(sv.reduce(sv.Segments.from_flags(heads).lengths, sv.MAX))
 
 
-def _differ(words: Any, others: Any) -> Any:
+def _differ(words: tuple[Array, ...], others: tuple[Array, ...]) -> Array:
     return jnp.any(jnp.stack([a != b for a, b in zip(words, others, strict=True)]))
 
 
-def _fraction(x: Any, low: Any, extent: Any) -> Any:
+def _fraction(x: Array, low: Array, extent: Array) -> Array:
     return jnp.clip((x - low) / extent, 0, 1 - 2.0**-20)
 
 
-def _next_word(rest: Point) -> tuple[Any, Point]:
+def _next_word(rest: Point[Array]) -> tuple[Array, Point[Array]]:
     """The Morton code of the leading bits of three numbers in [0, 1), and what these leave."""
-    scaled = [v * 2.0**BITS for v in rest]
+    scaled = [v * 2.0**BITS_PER_WORD for v in rest]
     whole = [jnp.floor(v) for v in scaled]
     left = Point(*(v - w for v, w in zip(scaled, whole, strict=True)))
     return morton_code(*(w.astype(jnp.int64) for w in whole)), left
 
 
-def _code_of_cell(site: Point, grid: Grid) -> Any:
+def _code_of_cell(site: Point[Array], grid: Grid[Array]) -> Array:
     return morton_code(*(c.astype(jnp.int64) for c in cell_coordinates(site, grid)))
 
 
-def morton_code(i: Any, j: Any, k: Any) -> Any:
+def morton_code(i: Array, j: Array, k: Array) -> Array:
     """Bits of three int64 below 2^21 in turn, those of i lowest."""
     code = jnp.zeros_like(i)
     for shift, x in enumerate((i, j, k)):
@@ -137,8 +143,9 @@ def morton_code(i: Any, j: Any, k: Any) -> Any:
     return code
 
 
-def _grid(low: list[float], high: list[float], wanted: float, dtype: Any) -> Grid:
+def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: npt.DTypeLike) -> HostGrid:
     """Cubic cells over the box from low to high, about ``wanted`` of them."""
+    number = np.float32 if np.dtype(dtype) == np.float32 else np.float64
     extents = np.maximum(np.subtract(high, low), 0)
     # bisect for the side: the number of cells falls with it, in steps
     small, large = extents.max() / 2**20, max(extents.max(), np.finfo(np.float32).tiny)
@@ -152,11 +159,11 @@ def _grid(low: list[float], high: list[float], wanted: float, dtype: Any) -> Gri
     fine, coarse = _divisions(extents, small), _divisions(extents, large)
     counts = fine if np.prod(fine) * np.prod(coarse) < wanted**2 else coarse
     side = max((extents / counts).max(), np.finfo(np.float32).tiny)
-    relative = 1e-3 if dtype is np.float32 else 1e-6
+    relative = 1e-3 if number is np.float32 else 1e-6
     greatest = float(np.abs([low, high]).max())
-    slack = relative * side + 4 * float(np.finfo(dtype).eps) * greatest
-    origin, end = (Point(*(dtype(v) for v in corner)) for corner in (low, high))
-    return Grid(origin, end, dtype(side), dtype(slack), *counts.astype(np.int32))
+    margin = relative * side + 4 * float(np.finfo(number).eps) * greatest
+    origin, end = (Point(*(number(v) for v in corner)) for corner in (low, high))
+    return Grid(origin, end, number(side), number(margin), *counts.astype(np.int32))
 
 
 def _divisions(extents: np.ndarray, side: float) -> np.ndarray:

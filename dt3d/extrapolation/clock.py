@@ -1,4 +1,4 @@
-"""Seconds by phase."""
+"""Seconds by phase, in both loops."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ class Clock:
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
+        """Count what is done within to a phase."""
         start = time.perf_counter()
         with self.machine.phase(name):
             yield

@@ -1,113 +1,163 @@
 """Face expansion: the site on a face's positive side that forms a Delaunay tetrahedron with it.
 
-Teng et al. 1993, sections 4 and 4.2 (Algorithm Face Expansion). The search is that of `search`; what is
-particular to faces is here. `PERTURBED` is the paper's: sites are in general position, and their signed
-distances are compared as they come. `exact/expansion.py` has the form for sites as they are.
+Teng et al. 1993, section 4. The search is Algorithm Face Expansion, in `cell_requests.py`; what is particular
+to faces is here. `PERTURBED` is the paper's: sites are in general position, and their signed distances are
+compared as they come. `exact/expansion.py` has the form for sites as they are.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import jax.numpy as jnp
+from jax import Array
 
 import scanvec as sv
 
 from . import signed_distance
 from .boxes import Box, Grid
 from .buckets import Buckets
-from .caps import cap_box
+from .caps import Plane, cap_box
+from .faces import Face, both_sides
 from .gift_wrapping import squared_distance_to_box
-from .points import Point, add, bounding_box, dot, epsilon, norm, sub
+from .outcome import Counts
+from .points import Point, T, add, bounding_box, dot, epsilon, norm, sub, total
 from .search import search
-from .warrants import Answer, Question
+from .warrants import Q, SearchResult, SearchSpec
 
 # Bounds that a tree search tries before it does without.
 TRIALS = 4
 
 
-class Face(NamedTuple):
-    """Sites a, b, c; the positive half-space is on the side of (b-a) x (c-a)."""
+class Expander(Protocol):
+    """Expands faces, in one of the modes."""
 
-    a: Any
-    b: Any
-    c: Any
+    exact: bool  # whether contradictions cannot be
+
+    def begin(self, facets: Face[sv.Vector]) -> tuple[Face[sv.Vector], sv.Vector, Counts]:
+        """The first open faces and their fourth vertices."""
+
+    def expand(self, faces: Face[sv.Vector]) -> tuple[sv.Vector, Counts]:
+        """The fourth vertex of each face, or `NO_SITE`."""
 
 
-class OpenFace(NamedTuple):
+class SomeFrame(Protocol):
+    """What both forms of a frame have."""
+
+    @property
+    def origin(self) -> Point[Array]:
+        """A vertex of the face."""
+
+    @property
+    def centre(self) -> Point[Array]:
+        """Of the face's circumcircle, relative to the origin."""
+
+
+F = TypeVar("F", bound=SomeFrame)
+
+
+class OpenFace(NamedTuple, Generic[F, T]):
     """An open face as a query: its frame and its vertices."""
 
-    frame: Any
-    face: Face
+    frame: F
+    face: Face[T]
 
 
-def first_box(query: OpenFace, a: Point, b: Point, c: Point, reach: Any) -> tuple[Point, Point]:
-    """The corners of the box of a face and its circumcentre, which may be ``reach`` beyond it at most.
+def first_box(
+    query: OpenFace[F, Array], a: Point[Array], b: Point[Array], c: Point[Array], most: Array
+) -> tuple[Point[Array], Point[Array]]:
+    """The corners of the box of a face and its circumcentre, which may be ``most`` beyond it.
 
     Faces of slivers at the hull have circumcentres far away; opening all cells on the way would be in vain.
     """
     low, high = bounding_box(a, b, c)
     centre = add(query.frame.origin, query.frame.centre)
-    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - reach)) for u, v in zip(low, centre, strict=True)))
-    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + reach)) for u, v in zip(high, centre, strict=True)))
+    low = Point(*(jnp.minimum(u, jnp.maximum(v, u - most)) for u, v in zip(low, centre, strict=True)))
+    high = Point(*(jnp.maximum(u, jnp.minimum(v, u + most)) for u, v in zip(high, centre, strict=True)))
     return low, high
 
 
-def search_faces(buckets: Buckets, queries: OpenFace, corners: list[Point], question: Question) -> Answer:
-    """The answers of open faces with the given corners, three records of coordinates."""
+def search_faces(
+    buckets: Buckets, queries: object, corners: list[Point[sv.Vector]], spec: SearchSpec[Q]
+) -> SearchResult:
+    """The best sites of open faces, which have the given corners, three records of coordinates."""
     first = (corners[0], corners[0])
     if buckets.cells is not None:
         first = buckets.machine.map(first_box, queries, *corners, buckets.cells.grid.side)
-    return search(buckets, queries, first, question)
+    return search(buckets, queries, first, spec)
 
 
-def homes(query: OpenFace) -> tuple[Any, Any, Any]:
+def vertices(query: OpenFace[F, Array]) -> tuple[Array, Array, Array]:
+    """The face's vertices, near which its search starts."""
     return query.face.a, query.face.b, query.face.c
 
 
-def trial(centre: Point, k: Any, unit: Any) -> Any:
-    """Signed distances of half the radius of the face's circumcircle, then of 2, 8, 32 of them."""
+def trial_distance(centre: Point[Array], k: Array, unit: Array | float) -> Array:
+    """The k-th bound to try: half the radius of the face's circumcircle, then 2, 8, 32 of them, then inf."""
     distance = norm(centre) * jnp.left_shift(1, 2 * k) / 2
     return jnp.where(k < TRIALS, distance / unit, jnp.inf)
 
 
-def open_perturbed_face(face: Face, a: Point, b: Point, c: Point) -> OpenFace:
+PerturbedFace = OpenFace[signed_distance.Frame, Array]
+
+
+def open_face(face: Face[Array], a: Point[Array], b: Point[Array], c: Point[Array]) -> PerturbedFace:
+    """The query of a face of perturbed sites."""
     return OpenFace(signed_distance.frame(a, b, c), face)
 
 
-def _perturbed_score(query: OpenFace, site: Point, index: Any) -> tuple[Any, Any]:
+def _score(query: PerturbedFace, site: Point[Array], index: Array) -> tuple[Array, Array]:
     distance = signed_distance.signed_distance(query.frame, site)
     return distance, distance
 
 
-def _perturbed_region(query: OpenFace, distance: Any, grid: Grid) -> Box:
+def _region(query: PerturbedFace, distance: Array, grid: Grid[Array]) -> Box[Array]:
     f = query.frame
-    zero = jnp.zeros_like(f.blur)
-    return cap_box(f.origin, f.normal, Point(zero, zero, zero), f.centre, distance, zero, grid)
+    zero = jnp.zeros_like(f.height_error)
+    return cap_box(Plane(f.origin, f.normal, Point(zero, zero, zero)), f.centre, distance, zero, grid)
 
 
-def _perturbed_admits(query: OpenFace, distance: Any, low: Point, high: Point) -> Any:
+def _may_contain(query: PerturbedFace, distance: Array, low: Point[Array], high: Point[Array]) -> Array:
     """Whether a box meets the positive half-space and, once there is a candidate, its circumsphere."""
     face = query.frame
     lo, hi = sub(low, face.origin), sub(high, face.origin)
-    height = sum(jnp.maximum(m * u, m * v) for m, u, v in zip(face.normal, lo, hi, strict=True))
+    height = total(jnp.maximum(m * u, m * v) for m, u, v in zip(face.normal, lo, hi, strict=True))
     found = jnp.isfinite(distance)
     centre, squared = signed_distance.circumsphere(face, jnp.where(found, distance, 0))
     # the squares lose what the coordinates have beyond an ulp of the radius
-    slack = 64 * epsilon(low.x) * (squared + dot(centre, centre))
-    meets = squared_distance_to_box(centre, low, high) <= squared + slack
+    error = 64 * epsilon(low.x) * (squared + dot(centre, centre))
+    meets = squared_distance_to_box(centre, low, high) <= squared + error
     return (height >= 0) & (meets | ~found)
 
 
-def _perturbed_trial(query: OpenFace, k: Any) -> Any:
-    return trial(query.frame.centre, k, 1)
+def _trial_bound(query: PerturbedFace, k: Array) -> Array:
+    return trial_distance(query.frame.centre, k, 1)
 
 
-PERTURBED = Question(_perturbed_score, homes, _perturbed_region, _perturbed_admits, _perturbed_trial)
+PERTURBED = SearchSpec(_score, vertices, _region, _may_contain, _trial_bound)
 
 
-def expand_perturbed(buckets: Buckets, faces: Face) -> Answer:
+def expand_perturbed(buckets: Buckets, faces: Face[sv.Vector]) -> SearchResult:
     """The fourth vertex of each face, or `NO_SITE` where no site is on its positive side."""
     corners = [sv.get(buckets.sites, v) for v in faces]
-    queries = buckets.machine.map(open_perturbed_face, faces, *corners)
+    queries = buckets.machine.map(open_face, faces, *corners)
     return search_faces(buckets, queries, corners, PERTURBED)
+
+
+class Perturbed:
+    """Expands faces of perturbed sites, as in the paper."""
+
+    exact = False
+
+    def __init__(self, buckets: Buckets) -> None:
+        self._buckets = buckets
+
+    def begin(self, facets: Face[sv.Vector]) -> tuple[Face[sv.Vector], sv.Vector, Counts]:
+        """The first open faces and their fourth vertices."""
+        faces = both_sides(facets)
+        return faces, *self.expand(faces)
+
+    def expand(self, faces: Face[sv.Vector]) -> tuple[sv.Vector, Counts]:
+        """The fourth vertex of each face, or `NO_SITE`."""
+        result = expand_perturbed(self._buckets, faces)
+        return result.best.site, Counts(len(faces.a), result.sites_searched, 0)

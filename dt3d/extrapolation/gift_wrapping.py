@@ -6,32 +6,35 @@ Teng et al. 1993, section 3: b nearest to a gives a Delaunay edge, and the c of 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple
 
 import jax.numpy as jnp
+from jax import Array
 
 import scanvec as sv
 
 from .boxes import Box, Grid, containment_box
 from .buckets import Buckets
-from .points import Point, add, bounding_box, cross, dot, scale, sub
+from .points import Point, T, add, bounding_box, cross, dot, scale, sub
 from .search import search
-from .warrants import Question
+from .warrants import SearchSpec
 
 
 class Ball(NamedTuple):
-    centre: Point
-    radius: Any
+    """Where a nearer site, or one of a smaller circle, must be."""
+
+    centre: Point[Array]
+    radius: Array
 
 
-def ball_box(ball: Ball, grid: Grid) -> Box:
+def ball_box(ball: Ball, grid: Grid[Array]) -> Box[Array]:
     """The cells that a ball meets, and perhaps a few more."""
     radius = ball.radius * (1 + 1e-5) + grid.side * 1e-3
-    reach = Point(radius, radius, radius)
-    return containment_box(sub(ball.centre, reach), add(ball.centre, reach), grid)
+    half = Point(radius, radius, radius)
+    return containment_box(sub(ball.centre, half), add(ball.centre, half), grid)
 
 
-def squared_distance_to_box(p: Point, low: Point, high: Point) -> Any:
+def squared_distance_to_box(p: Point[Array], low: Point[Array], high: Point[Array]) -> Array:
     """Squared distance from a point to the nearest point of a box; 0 inside it."""
     gap = Point(
         *(jnp.maximum(jnp.maximum(lo - v, v - hi), 0) for v, lo, hi in zip(p, low, high, strict=True))
@@ -39,48 +42,53 @@ def squared_distance_to_box(p: Point, low: Point, high: Point) -> Any:
     return dot(gap, gap)
 
 
-def ball_meets(ball: Ball, low: Point, high: Point) -> Any:
+def ball_meets(ball: Ball, low: Point[Array], high: Point[Array]) -> Array:
+    """Whether a ball, a little widened, meets a box."""
     return squared_distance_to_box(ball.centre, low, high) <= ball.radius * ball.radius * (1 + 1e-5)
 
 
 # the nearest site
 
 
-class Start(NamedTuple):
-    a: Point
-    site: Any
+class Start(NamedTuple, Generic[T]):
+    """A site that looks for the nearest one."""
+
+    a: Point[T]
+    site: T
 
 
-def _nearest_score(query: Start, site: Point, index: Any) -> tuple[Any, Any]:
+def _nearest_score(query: Start[Array], site: Point[Array], index: Array) -> tuple[Array, Array]:
     d = sub(site, query.a)
     score = jnp.where(index == query.site, jnp.inf, dot(d, d))
     return score, score
 
 
-def _nearest_ball(query: Start, score: Any) -> Ball:
+def _nearest_ball(query: Start[Array], score: Array) -> Ball:
     return Ball(query.a, jnp.sqrt(score))
 
 
-NEAREST = Question(
+NEAREST: SearchSpec[Start[Array]] = SearchSpec(
     score=_nearest_score,
-    homes=lambda query: (query.site,),
+    start_sites=lambda query: (query.site,),
     region=lambda query, score, grid: ball_box(_nearest_ball(query, score), grid),
-    admits=lambda query, score, low, high: ball_meets(_nearest_ball(query, score), low, high),
-    trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
+    may_contain=lambda query, score, low, high: ball_meets(_nearest_ball(query, score), low, high),
+    trial_bound=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
 )
 
 
 # the smallest circumcircle with an edge
 
 
-class Edge(NamedTuple):
-    a: Point
-    b: Point
-    site_a: Any
-    site_b: Any
+class Edge(NamedTuple, Generic[T]):
+    """A Delaunay edge that looks for the site of the smallest circle with it."""
+
+    a: Point[T]
+    b: Point[T]
+    site_a: T
+    site_b: T
 
 
-def squared_circumradius(a: Point, b: Point, c: Point) -> Any:
+def squared_circumradius(a: Point[Array], b: Point[Array], c: Point[Array]) -> Array:
     """|ab|^2 |ac|^2 |bc|^2 / (4 |ab x ac|^2); inf for flat triangles."""
     ab, ac, bc = sub(b, a), sub(c, a), sub(c, b)
     normal = cross(ab, ac)
@@ -90,13 +98,13 @@ def squared_circumradius(a: Point, b: Point, c: Point) -> Any:
     return jnp.where(flat, jnp.inf, product / jnp.where(flat, 1, 4 * area))
 
 
-def _circle_score(query: Edge, site: Point, index: Any) -> tuple[Any, Any]:
+def _circle_score(query: Edge[Array], site: Point[Array], index: Array) -> tuple[Array, Array]:
     own = (index == query.site_a) | (index == query.site_b)
     score = jnp.where(own, jnp.inf, squared_circumradius(query.a, query.b, site))
     return score, score
 
 
-def _circle_ball(query: Edge, score: Any) -> Ball:
+def _circle_ball(query: Edge[Array], score: Array) -> Ball:
     # A circle of radius R through a and b has its centre within h = sqrt(R^2 - |ab|^2/4) of their midpoint,
     # so any c whose circle is smaller lies within R + h of it.
     edge = sub(query.b, query.a)
@@ -104,12 +112,12 @@ def _circle_ball(query: Edge, score: Any) -> Ball:
     return Ball(scale(0.5, add(query.a, query.b)), jnp.sqrt(score) + height)
 
 
-SMALLEST_CIRCLE = Question(
+SMALLEST_CIRCLE: SearchSpec[Edge[Array]] = SearchSpec(
     score=_circle_score,
-    homes=lambda query: (query.site_a, query.site_b),
+    start_sites=lambda query: (query.site_a, query.site_b),
     region=lambda query, score, grid: ball_box(_circle_ball(query, score), grid),
-    admits=lambda query, score, low, high: ball_meets(_circle_ball(query, score), low, high),
-    trial=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
+    may_contain=lambda query, score, low, high: ball_meets(_circle_ball(query, score), low, high),
+    trial_bound=lambda query, k: jnp.full_like(query.a.x, jnp.inf),
 )
 
 

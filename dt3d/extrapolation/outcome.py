@@ -1,47 +1,66 @@
-"""What the main loop returns, on any machine."""
+"""What the main loop returns and counts, on any machine."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 import scanvec as sv
 
 from .._stats import Statistics
-from .exact.canonical import canonical
+
+# Called with the iteration, the open faces and the tetrahedra so far, after every iteration.
+Report: TypeAlias = Callable[[int, int, int], None]
+
+
+class Counts(NamedTuple):
+    """What an expansion did."""
+
+    face_expansions: int
+    sites_searched: int
+    exact_decisions: int
+
+
+NOTHING_DONE = Counts(0, 0, 0)
 
 
 @dataclass
 class Outcome:
-    """What the loop found; vertices are indices of the rows of the sites it was given."""
+    """What the loop found; vertices are rows of the sites it was given."""
 
-    simplices: np.ndarray  # int32 (m, 4)
-    neighbors: np.ndarray  # int32 (m, 4)
-    iteration: np.ndarray  # int32 (m,)
-    duplicates: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))
+    simplices: np.ndarray = field(default_factory=lambda: np.empty((0, 4), np.int32))  # int32 (m, 4)
+    neighbors: np.ndarray = field(default_factory=lambda: np.empty((0, 4), np.int32))  # int32 (m, 4)
+    iteration: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))  # int32 (m,)
+    duplicates: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))  # int32 (k, 2)
     per_iteration: list[int] = field(default_factory=list)
-    face_expansions: int = 0
-    sites_searched: int = 0
-    exact_decisions: int = 0
+    counts: Counts = NOTHING_DONE
     inconsistencies: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
 
-    def in_canonical_order(self) -> Outcome:
-        """The same with tetrahedra and their vertices in an order that does not depend on the machine."""
-        rows = canonical(self.simplices, self.neighbors, self.iteration)
-        self.simplices, self.neighbors, self.iteration = rows
-        return self
+    @property
+    def tetrahedra(self) -> int:
+        """How many have been found."""
+        return sum(self.per_iteration)
+
+    def add(self, counts: Counts) -> None:
+        """Count an expansion."""
+        self.counts = added(self.counts, counts)
 
     def statistics(self, ledger: sv.Ledger | None, total: float) -> Statistics:
         """The counts as the public class has them, with the seconds of the whole run."""
         return Statistics(
             iterations=len(self.per_iteration),
-            face_expansions=self.face_expansions,
-            sites_searched=self.sites_searched,
-            exact_decisions=self.exact_decisions,
+            **self.counts._asdict(),
             tetrahedra_per_iteration=tuple(self.per_iteration),
             inconsistencies=self.inconsistencies,
             seconds=self.seconds | {"total": total},
             ledger=ledger,
         )
+
+
+def added(a: Counts, b: Counts) -> Counts:
+    """The counts of two expansions together."""
+    return Counts(*(x + y for x, y in zip(a, b, strict=True)))

@@ -21,7 +21,8 @@ def normalise(points: np.ndarray) -> np.ndarray:
     with np.errstate(over="ignore"):
         extent = (points / 4 - low / 4).max()  # quarters, so that the difference cannot overflow
     exponent = int(np.frexp(extent)[1]) + 2
-    return np.ldexp(points, -exponent) - np.ldexp(low, -exponent)
+    scaled: np.ndarray = np.ldexp(points, -exponent) - np.ldexp(low, -exponent)
+    return scaled
 
 
 def perturb(sites: np.ndarray, dtype: np.dtype, seed: int) -> np.ndarray:
@@ -30,4 +31,5 @@ def perturb(sites: np.ndarray, dtype: np.dtype, seed: int) -> np.ndarray:
     # written out, so that equal sites give equal results wherever they stand in the array
     x, y, z = sites.T
     moved = np.column_stack([row[0] * x + row[1] * y + row[2] * z for row in m])
-    return (sites + MAGNITUDE[np.dtype(dtype)] * moved).astype(dtype)
+    perturbed: np.ndarray = (sites + MAGNITUDE[np.dtype(dtype)] * moved).astype(dtype)
+    return perturbed

@@ -1,29 +1,36 @@
-"""From points to their triangulation: what happens before and after the main loop.
+"""From points to their triangulation: what happens before and after the main loop, in both modes.
 
 Teng et al. 1993, section 5.1: with ``robustness="perturb"`` the sites are normalised to the unit cube and
 perturbed in the working precision; what the consistency check cannot see is counted at the end. In the exact
-mode the loop gets the sites as they are, in lexicographic order.
+mode the loop gets the sites as they are, in lexicographic order; many that fill space evenly get the compiled
+steps, on a `scanvec.Device`.
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 import scanvec as sv
 
-from .. import _topology
-from .._errors import InconsistencyError, InconsistencyWarning
+from .._errors import InconsistencyWarning
 from .._input import affine_dimension, check_volume, exactly_scaled, first_copies
+from .._memory import require
+from . import compiled
+from .consistency import count_faults
+from .exact.canonical import in_canonical_order
+from .exact.expander import Exact
+from .exact.sites import check_magnitudes
+from .expansion import Perturbed
 from .loop import extrapolate
-from .outcome import Outcome
+from .outcome import Outcome, Report
 from .perturbation import normalise, perturb
 
 CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
-# The frames between what warns here and the caller of the public class.
-CALLER = 4
+BYTES_PER_SITE = 1500  # at least, as measured
+CALLER = 4  # the frames between what warns here and the caller of the public class
 
 
 def triangulate(
@@ -33,14 +40,16 @@ def triangulate(
     exact: bool,
     dtype: np.dtype,
     seed: int,
-    report: Callable[[int, int, int], None] | None = None,
+    report: Report | None = None,
 ) -> Outcome:
     """Triangulate checked points (n, 3); vertices of the result are rows of these.
 
     Parameters
     ----------
     points : ndarray of float64 (n, 3)
+        Finite; some may be equal.
     machine : scanvec.Machine
+        Where the vectors live.
     exact : bool
         Whether sites are taken as they are; otherwise they are perturbed.
     dtype : numpy.dtype
@@ -58,31 +67,46 @@ def triangulate(
         If the perturbation does not decide enough to finish.
     InternalError
         If exact decisions contradict each other.
+    MemoryError
+        If the system does not have the memory.
     ValueError
         If ``exact``, and differences of coordinates are too small beside the greatest of these.
     """
     if exact:
         used, duplicates = first_copies(points)
-        sites = exactly_scaled(points[used])
-        _check_volume(sites)
+        out = _extrapolate_exactly(exactly_scaled(points[used]), machine, report)
     else:
         sites, used, duplicates = _perturbed(points, dtype, seed)
-    outcome = extrapolate(machine, sites, exact, report)
-    outcome.simplices = used[outcome.simplices].astype(np.int32)
-    outcome.duplicates = duplicates
+        _require_memory(len(sites))
+        out = extrapolate(machine, sites, Perturbed, report)
+    out.simplices = used[out.simplices].astype(np.int32)
+    out.duplicates = duplicates
     if not exact:
-        outcome.inconsistencies += _faults(points, used, outcome)
-    if outcome.inconsistencies:
+        out.inconsistencies += count_faults(points, used, out)
+    if out.inconsistencies:
         msg = (
-            f"the triangulation has {outcome.inconsistencies} inconsistencies: tetrahedra that contradict "
-            f"others were left out, so it may have holes or overlaps. Use method='insertion' (exact), "
+            f"the triangulation has {out.inconsistencies} inconsistencies: tetrahedra that contradict others "
+            f"were left out, so it may have holes or overlaps. Use method='insertion' (exact), "
             f"dtype='float64', or another seed"
         )
         warnings.warn(msg, InconsistencyWarning, stacklevel=CALLER)
-    return outcome
+    return out
 
 
-def _check_volume(sites: np.ndarray) -> None:
+def _extrapolate_exactly(sites: np.ndarray, machine: sv.Machine, report: Report | None) -> Outcome:
+    _check_span(sites)
+    _require_memory(len(sites))
+    check_magnitudes(sites)
+    if isinstance(machine, sv.Device) and compiled.serves(sites):
+        return in_canonical_order(compiled.extrapolate(machine, sites, report))
+    return in_canonical_order(extrapolate(machine, sites, partial(Exact, sites=sites), report))
+
+
+def _require_memory(n: int) -> None:
+    require(f"the extrapolation of {n} sites", BYTES_PER_SITE * n)
+
+
+def _check_span(sites: np.ndarray) -> None:
     """Raise DegenerateInputError unless distinct sites (n, 3) span a volume, however thin; exactly."""
     if affine_dimension(normalise(sites), CLEARLY_THICK) < 3:
         from .._first_tetrahedron import first_tetrahedron
@@ -113,19 +137,3 @@ def _perturbed(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarr
         duplicates = np.column_stack([pairs[:, 0], final[pairs[:, 1]]])
         duplicates = duplicates[np.argsort(duplicates[:, 0])].astype(np.int32)
     return np.ascontiguousarray(sites[kept]), used[kept], duplicates
-
-
-def _faults(points: np.ndarray, used: np.ndarray, outcome: Outcome) -> int:
-    """Open hull edges and flat or turned tetrahedra; raises where a site was lost."""
-    missing = np.setdiff1d(used, outcome.simplices)
-    if len(missing):
-        msg = (
-            f"{len(missing)} sites are in no tetrahedron, the first is {missing[0]}: the perturbation "
-            f"does not decide this set. Use method='insertion', which is exact, or dtype='float64', or "
-            f"another seed"
-        )
-        raise InconsistencyError(msg, len(missing))
-    corners = normalise(points)[outcome.simplices]
-    volumes = np.linalg.det(corners[:, 1:] - corners[:, :1])
-    hull = _topology.hull_facets(outcome.simplices, outcome.neighbors)
-    return _topology.open_edges(hull) + int((volumes <= 0).sum())

@@ -7,7 +7,7 @@ import pytest
 
 import dt3d
 import scanvec as sv
-from dt3d.extrapolation import loop
+from dt3d.extrapolation import consistency, expansion, loop
 from dt3d.extrapolation.exact import decisions
 
 from .exact import check_neighbors
@@ -51,7 +51,7 @@ def test_what_a_callback_raises_ends_the_run_within_an_iteration(error):
 def test_a_set_that_cannot_be_finished_ends_with_an_error_that_counts():
     with pytest.raises(dt3d.InconsistencyError, match=r"\d+ inconsistencies among \d+ tetrahedra") as caught:
         dt3d.Delaunay(on_sphere(2000), robustness="perturb", dtype="float32")
-    assert caught.value.inconsistencies > loop.GIVE_UP_COUNT
+    assert caught.value.inconsistencies > consistency.GIVE_UP_COUNT
     assert "float64" in str(caught.value)
 
 
@@ -70,7 +70,7 @@ def test_the_same_spheres_are_finished_in_double_precision():
 
 def test_a_run_in_circles_ends(monkeypatch):
     """Were open faces never purged, the number of tetrahedra would pass what n sites can have."""
-    monkeypatch.setattr(loop, "GIVE_UP_COUNT", 10**9)
+    monkeypatch.setattr(consistency, "GIVE_UP_COUNT", 10**9)
     again = []
 
     def all_outward(dead, new):
@@ -79,15 +79,15 @@ def test_a_run_in_circles_ends(monkeypatch):
         return again_faces[0]
 
     again_faces = []
-    real = loop.both_sides
+    real = expansion.both_sides
 
     def remember(facets):
         again_faces.append(real(facets))
         return again_faces[0]
 
-    monkeypatch.setattr(loop, "both_sides", remember)
+    monkeypatch.setattr(expansion, "both_sides", remember)
     monkeypatch.setattr(loop, "open_faces", all_outward)
-    monkeypatch.setattr(loop, "bury", lambda dead, new, first: (dead, new, 0))
+    monkeypatch.setattr(loop, "insert_dead_faces", lambda dead, new, first: (dead, new, 0))
     with pytest.raises(dt3d.InconsistencyError):
         dt3d.Delaunay(np.random.default_rng(0).random((30, 3)), robustness="perturb", machine=sv.Device())
 

@@ -1,10 +1,11 @@
-"""Extrapolation in whole steps, each compiled as one, for a device and exact decisions.
+"""Beyond the paper: an execution of the exact mode in whole steps, each compiled as one, for a device.
 
-The algorithm is that of the package above, and so are the bounds on which exactness rests. What differs is
-how it is laid out for XLA: arrays of capacities that grow instead of vectors of any length, lists of sites
-that stand ready (`windows`) instead of requests and warrants, and only some of the open faces at a time.
+The program is that of the package above, and so are the bounds on which exactness rests. What differs is how
+it is laid out for XLA: arrays of capacities that grow instead of vectors of any length, lists of sites that
+stand ready (`windows.py`) instead of a request for each cell, and only some of the open faces at a time.
 """
 
-from .loop import serves, triangulate
+from .loop import extrapolate
+from .tables import serves
 
-__all__ = ["serves", "triangulate"]
+__all__ = ["extrapolate", "serves"]

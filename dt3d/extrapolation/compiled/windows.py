@@ -6,51 +6,58 @@ where its fourth vertex is expected. A site is in up to 27 windows, 108 bytes.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from .. import buckets
-from ..boxes import Grid
-from ..buckets import _grid as make_grid
+from ..boxes import Box, Grid, HostGrid
+from ..buckets import cubic_grid
+from ..exact.filtered_distance import Frame
+from ..points import add, norm, scale
 
 CELLS = 3  # of a window along an axis
-SITES_PER_CELL = 1.33  # so 36 a window
+SITES_PER_FINE_CELL = 1.33  # so 36 a window
+# Where a window is centred: so many sides of a fine cell above the face.
+AHEAD = 0.5
 
 
 class Windows(NamedTuple):
-    """All windows; that of the cells from (i, j, k) on is i + nx (j + ny k)."""
+    """All windows; that of the cells from (i, j, k) on is i + nx (j + ny k). In NumPy, then in JAX."""
 
-    grid: Grid
-    nx: Any  # windows along the axes
-    ny: Any
-    nz: Any
-    starts: Any  # int32 (windows + 1, or more): where each one's sites begin in the list
-    members: Any  # int32 (entries, or more): indices of sites
+    grid: Grid[Array]
+    nx: Array  # windows along the axes
+    ny: Array
+    nz: Array
+    starts: Array  # int32 (windows + 1, or more): where each one's sites begin in the list
+    members: Array  # int32 (entries, or more): indices of sites
 
 
-def cells_of(sites: np.ndarray, grid: Grid) -> np.ndarray:
+def cells_of(sites: np.ndarray, grid: HostGrid) -> np.ndarray:
     """The number of each site's cell, int64 (n,), x running fastest."""
     counts = np.array([grid.nx, grid.ny, grid.nz])
     place = (sites - np.array(grid.origin)) / grid.side
     i, j, k = np.clip(place.astype(np.int64), 0, counts - 1).T
-    return i + counts[0] * (j + counts[1] * k)
+    numbers: np.ndarray = i + counts[0] * (j + counts[1] * k)
+    return numbers
 
 
-def grid_of(sites: np.ndarray, sites_per_cell: float) -> Grid:
+def grid_of(sites: np.ndarray, sites_per_cell: float) -> HostGrid:
     """Cubic cells over the box of sites (n, 3)."""
     low, high = sites.min(axis=0).tolist(), sites.max(axis=0).tolist()
-    return make_grid(low, high, len(sites) / sites_per_cell, np.float64)
+    return cubic_grid(low, high, len(sites) / sites_per_cell, np.float64)
 
 
-def even(sites: np.ndarray) -> bool:
+def are_even(sites: np.ndarray) -> bool:
     """Whether sites (n, 3) leave few cells empty, by the measure of `buckets.bucket`."""
     cell = cells_of(sites, grid_of(sites, buckets.SITES_PER_CELL))
     occupied = int(np.count_nonzero(np.bincount(cell)))
-    return len(sites) <= buckets.EVEN * buckets.SITES_PER_CELL * occupied
+    return len(sites) <= buckets.EVENNESS * buckets.SITES_PER_CELL * occupied
 
 
-def windows_of(sites: np.ndarray, grid: Grid, capacity: int) -> Windows:
+def windows_of(sites: np.ndarray, grid: HostGrid, capacity: int) -> Windows:
     """The windows of a grid over sites (n, 3), in arrays for ``capacity`` sites."""
     counts = np.array([grid.nx, grid.ny, grid.nz])
     cell = cells_of(sites, grid)
@@ -74,4 +81,39 @@ def windows_of(sites: np.ndarray, grid: Grid, capacity: int) -> Windows:
     starts = np.full(max(2 * capacity, len(corner)) + 1, entries, np.int32)
     starts[: len(corner)] = before[:: len(row)]
     nx, ny, nz = shape.astype(np.int32)
-    return Windows(grid, nx, ny, nz, starts, members)
+    return Windows(grid, nx, ny, nz, starts, members)  # type: ignore[arg-type]  # in NumPy at first
+
+
+def window_ahead(query: Frame, ahead: Array | float, windows: Windows) -> tuple[Array, Box[Array]]:
+    """The window about the place where a face's fourth vertex is expected, and its cells.
+
+    ``ahead`` is a length, `AHEAD` cells.
+    """
+    grid = windows.grid
+    place = add(add(query.origin, query.centre), scale(ahead / norm(query.normal), query.normal))
+    corner = []
+    shape = (windows.nx, windows.ny, windows.nz)
+    for x, low, high, n in zip(place, grid.origin, grid.high, shape, strict=True):
+        first = jnp.round((jnp.clip(x, low, high) - low) / grid.side - CELLS / 2)
+        corner.append(jnp.where(jnp.isnan(first), 0, jnp.clip(first, 0, n - 1)).astype(jnp.int32))
+    i, j, k = corner
+    last = [
+        jnp.minimum(c + CELLS, cells) - 1
+        for c, cells in zip(corner, (grid.nx, grid.ny, grid.nz), strict=True)
+    ]
+    return i + windows.nx * (j + windows.ny * k), Box(i, last[0], j, last[1], k, last[2])
+
+
+def window_around(cap: Box[Array], windows: Windows) -> tuple[Array, Box[Array]]:
+    """The window with a box of cells in its middle, and its cells."""
+    grid = windows.grid
+    i, last_i = _middle(cap.x0, cap.x1, windows.nx, grid.nx)
+    j, last_j = _middle(cap.y0, cap.y1, windows.ny, grid.ny)
+    k, last_k = _middle(cap.z0, cap.z1, windows.nz, grid.nz)
+    return i + windows.nx * (j + windows.ny * k), Box(i, last_i, j, last_j, k, last_k)
+
+
+def _middle(first: Array, last: Array, places: Array, cells: Array) -> tuple[Array, Array]:
+    """The first and last cell along an axis of the window about the cells from ``first`` to ``last``."""
+    start = jnp.clip((first + last) // 2 - (CELLS - 1) // 2, 0, places - 1)
+    return start, jnp.minimum(start + CELLS, cells) - 1

@@ -1,4 +1,1 @@
-"""Beyond the paper: the extrapolation of sites as they are, every decision exact.
-
-Signed distances are known between bounds; what the bounds leave open, integers decide.
-"""
+"""Beyond the paper: sites as they are, every decision exact, cospherical sites by a symbolic perturbation."""

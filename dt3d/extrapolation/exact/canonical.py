@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-BITS = 21  # of a vertex where three of them fit into a word
+from ..outcome import Outcome
+
+VERTEX_BITS = 21  # of a vertex where three of them fit into a word
 
 
 def canonical(
@@ -22,6 +24,7 @@ def canonical(
     simplices, neighbors : ndarray of int32 (m, 4)
         All tetrahedra positive; no neighbor is a negative number.
     iteration : ndarray of int32 (m,)
+        Of each tetrahedron.
     """
     # each vertex carries its place in the two lowest bits
     columns = [np.left_shift(simplices[:, k], 2) + np.int32(k) for k in range(4)]
@@ -41,13 +44,21 @@ def canonical(
     return np.take(rows, order, axis=0), place[np.take(turned, order, axis=0)], iteration[order]
 
 
+def in_canonical_order(out: Outcome) -> Outcome:
+    """The outcome, its tetrahedra in an order that does not depend on the machine."""
+    rows = canonical(out.simplices, out.neighbors, out.iteration)
+    out.simplices, out.neighbors, out.iteration = rows
+    return out
+
+
 def _chosen(k: np.ndarray, values: np.ndarray) -> np.ndarray:
     low = np.where(k & 1, values[1], values[0])
-    return np.where(k & 2, np.where(k & 1, values[3], values[2]), low)
+    chosen: np.ndarray = np.where(k & 2, np.where(k & 1, values[3], values[2]), low)
+    return chosen
 
 
 def _order(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    if max(x.max(initial=0) for x in (a, b, c)) >= 1 << BITS:
+    if max(x.max(initial=0) for x in (a, b, c)) >= 1 << VERTEX_BITS:
         return np.lexsort((c, b, a))
-    first, second = a.astype(np.int64) << 2 * BITS, b.astype(np.int64) << BITS
+    first, second = a.astype(np.int64) << 2 * VERTEX_BITS, b.astype(np.int64) << VERTEX_BITS
     return np.argsort(first | second | c)

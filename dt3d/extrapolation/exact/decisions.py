@@ -1,75 +1,73 @@
 """Exact face expansions: the filtered search, and exact decisions where it leaves several sites open.
 
 Sites are perturbed symbolically: site p is lifted to height |p|^2 + e_p with infinitesimals e_p. Then each
-face has one right fourth vertex, which depends on nothing but the sites: whoever expands it finds the same
-one (see `dt3d.predicates.space`).
+face has one right fourth vertex, which depends on nothing but the sites (see the ties in `dt3d.predicates.space`).
 """
 
 from __future__ import annotations
 
 import warnings
-from typing import Any, NamedTuple
+from typing import Generic, NamedTuple, TypeAlias
 
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 import scanvec as sv
 
 from ..._errors import QuadraticSearchWarning
-from ..expansion import Face, search_faces
-from ..points import Point
+from ..expansion import OpenFace, search_faces
+from ..faces import Face
+from ..outcome import Counts
+from ..points import Point, T
 from ..tree.boxes import FANOUT, Request, descend, entry_test, unfold
 from ..tree.search import Bounded
 from ..warrants import NO_SITE, Best
-from .expansion import FILTERED, open_exact_face
+from .expansion import FILTERED, ExactFace, open_face
+from .filtered_distance import Frame
 from .sites import ExactSites
 
 # Leaves that a face compares exactly, on average, before a warning says so.
 CROWD = 256
 
+# open faces whose signed distance must be at most a bound
+_Queries: TypeAlias = Bounded[OpenFace[Frame, sv.Vector], sv.Vector]
 
-class Expansion(NamedTuple):
+
+class Expansion(NamedTuple, Generic[T]):
     """The outcome of expanding m faces; vectors of length m."""
 
-    site: Any  # int32; NO_SITE where no site is on the positive side
-    low: Any  # a lower bound of its signed distance; -inf where exact decisions were needed
-    refuter: Any  # int32: a coplanar site inside the face's perturbed circumcircle, or NO_SITE
+    site: T  # int32; NO_SITE where no site is on the positive side
+    low: T  # a lower bound of its signed distance; -inf where exact decisions were needed
+    violator: T  # int32: a coplanar site inside the face's perturbed circumcircle, or NO_SITE
 
 
-class Counts(NamedTuple):
-    """What was done."""
-
-    face_expansions: int
-    sites_searched: int
-    exact_decisions: int
-
-
-def expand_exactly(exact: ExactSites, faces: Face) -> tuple[Expansion, Counts]:
+def expand_exactly(exact: ExactSites, faces: Face[sv.Vector]) -> tuple[Expansion[sv.Vector], Counts]:
     """The fourth vertex of each face under the symbolic perturbation."""
     buckets = exact.buckets
     machine, m = buckets.machine, len(faces.a)
     corners = [sv.get(buckets.sites, v) for v in faces]
-    queries = machine.map(open_exact_face, faces, *corners, exact.lattice)
+    queries = machine.map(open_face, faces, *corners, exact.lattice)
     best, searched = search_faces(buckets, queries, corners, FILTERED)
     site, low, undecided = machine.map(_conclude, best)
-    refuter = machine.full(m, NO_SITE, np.int32)
+    violator = machine.full(m, NO_SITE, np.int32)
     index = sv.pack_index(undecided)
     if len(index):
         few, bound = sv.get((queries, best.high), index)
-        winner, refuting, more = _decide(exact, Bounded(few, bound))
-        site, refuter = sv.scatter((winner, refuting), index, into=(site, refuter))
+        winner, violating, more = _decide(exact, Bounded(few, bound))
+        site, violator = sv.scatter((winner, violating), index, into=(site, violator))
         searched += more
-    return Expansion(site, low, refuter), Counts(m, searched, len(index))
+    return Expansion(site, low, violator), Counts(m, searched, len(index))
 
 
-def _conclude(best: Best) -> tuple[Any, Any, Any]:
+def _conclude(best: Best[Array]) -> tuple[Array, Array, Array]:
     """The site and its lower bound, if only one is left; and whether more are."""
     undecided = (best.low < jnp.inf) & ~(best.second > best.high)
     return best.site, jnp.where(undecided, -jnp.inf, best.low), undecided
 
 
-def _decide(exact: ExactSites, queries: Bounded) -> tuple[sv.Vector, sv.Vector, int]:
-    """For each face the winner among the sites that its bound leaves, and a refuter."""
+def _decide(exact: ExactSites, queries: _Queries) -> tuple[sv.Vector, sv.Vector, int]:
+    """For each face the winner among the sites that its bound leaves, and a violating site."""
     machine, m = exact.buckets.machine, len(queries.high)
     faces = queries.query.face
     above = coplanar = Request(machine.full(0, 0, np.int32), machine.full(0, 0, np.int32))
@@ -81,18 +79,18 @@ def _decide(exact: ExactSites, queries: Bounded) -> tuple[sv.Vector, sv.Vector, 
         sign = exact.orientation(sv.get(faces, pairs.query), pairs.node)
         above = sv.append(above, sv.pack(pairs, sign > 0))
         coplanar = sv.append(coplanar, sv.pack(pairs, sign == 0))
-    nobody = machine.full(m, NO_SITE, np.int32)
+    no_site = machine.full(m, NO_SITE, np.int32)
     rivals = _tournament(exact, faces, above)
-    winner = sv.scatter(rivals.node, rivals.query, into=nobody)
+    winner = sv.scatter(rivals.node, rivals.query, into=no_site)
 
     apex = sv.get(winner, coplanar.query)
     beside, apex = sv.pack((coplanar, apex), apex != NO_SITE)
-    refutes = exact.inside(sv.get(faces, beside.query), apex, beside.node)
-    refuter = sv.send(beside.node, beside.query, sv.MAX, into=nobody, where=refutes)
-    return winner, refuter, searched
+    violates = exact.inside(sv.get(faces, beside.query), apex, beside.node)
+    violator = sv.send(beside.node, beside.query, sv.MAX, into=no_site, where=violates)
+    return winner, violator, searched
 
 
-def _warn_of_crowds(requests: Request) -> None:
+def _warn_of_crowds(requests: Request[sv.Vector]) -> None:
     """Say so where the faces of a batch have thousands of rivals each."""
     n = len(requests.query)
     if n > CROWD:
@@ -107,15 +105,15 @@ def _warn_of_crowds(requests: Request) -> None:
             warnings.warn(msg, QuadraticSearchWarning, stacklevel=2)
 
 
-def _enters(query: Bounded, low: Point, high: Point) -> Any:
-    return FILTERED.admits(query.query, query.high, low, high)
+def _enters(query: Bounded[ExactFace, Array], low: Point[Array], high: Point[Array]) -> Array:
+    return FILTERED.may_contain(query.query, query.high, low, high)
 
 
 _ENTER = entry_test(_enters)
 
 
-def _open_sites(exact: ExactSites, queries: Bounded, requests: Request) -> sv.Vector:
-    """For each leaf a mask of the sites that may be its query's answer."""
+def _open_sites(exact: ExactSites, queries: _Queries, requests: Request[sv.Vector]) -> sv.Vector:
+    """For each leaf a mask of the sites that may be its query's result."""
     machine, n = requests.query.machine, len(exact.buckets.origin)
     query = sv.get(queries, requests.query)
     mask = machine.full(len(requests.query), 0, np.int32)
@@ -127,12 +125,14 @@ def _open_sites(exact: ExactSites, queries: Bounded, requests: Request) -> sv.Ve
     return mask
 
 
-def _mark(mask: Any, query: Bounded, point: Point, site: Any, exists: Any, k: Any) -> Any:
+def _mark(
+    mask: Array, query: Bounded[ExactFace, Array], point: Point[Array], site: Array, exists: Array, k: Array
+) -> Array:
     low, _ = FILTERED.score(query.query, point, site)
     return mask | jnp.where(exists & (low < jnp.inf) & (low <= query.high), jnp.left_shift(1, k), 0)
 
 
-def _tournament(exact: ExactSites, faces: Face, rivals: Request) -> Request:
+def _tournament(exact: ExactSites, faces: Face[sv.Vector], rivals: Request[sv.Vector]) -> Request[sv.Vector]:
     """One site for each face that has any: the one inside whose sphere with the face no other is.
 
     Neighbours in the list of a face meet, and the winners go on: as many rounds as the logarithm of the

@@ -26,33 +26,35 @@ multiplies by at most 1 + e; contraction to fused multiply-add leaves roundings 
   the quotient.
 
 Where k exceeds 2^40 (a face so thin that terms of second order count) nothing is decided. No product over- or
-underflows: `exact_sites` sees to that.
+underflows: `sites.check_magnitudes` sees to that.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax.numpy as jnp
+from jax import Array
 
-from ..points import Point, cross, dot, epsilon, scale, sub
+from ..points import Point, cross, dot, epsilon, scale, sub, total
 
 
 class Frame(NamedTuple):
     """What the expansion of a face needs to know of it, with errors; 13 floats."""
 
-    origin: Point  # a vertex, the one opposite the longest edge, where the errors are least
-    normal: Point  # N, towards the positive half-space
-    doubt: Point  # p: <N, w> is known to sum p_i |w_i|
-    centre: Point  # o, relative to the origin
-    blur: Any  # q: <w, w - 2o> is known to sum |w_i| (10e |w_i - 2 o_i| + q)
+    origin: Point[Array]  # a vertex, the one opposite the longest edge, where the errors are least
+    normal: Point[Array]  # N, towards the positive half-space
+    normal_error: Point[Array]  # p: <N, w> is known to sum p_i |w_i|
+    centre: Point[Array]  # o, relative to the origin
+    centre_error: Array  # q: <w, w - 2o> is known to sum |w_i| (10e |w_i - 2 o_i| + q)
 
 
-def absolute(p: Point) -> Point:
+def absolute(p: Point[Array]) -> Point[Array]:
+    """The absolute values of the coordinates."""
     return Point(jnp.abs(p.x), jnp.abs(p.y), jnp.abs(p.z))
 
 
-def frame(a: Point, b: Point, c: Point, lattice: Any) -> Frame:
+def frame(a: Point[Array], b: Point[Array], c: Point[Array], lattice: Array | bool) -> Frame:
     """The frame of the face (a, b, c); ``lattice`` says that heights are exact, for small integers."""
     e = epsilon(a.x)
     ab, bc, ca = sub(b, a), sub(c, b), sub(a, c)
@@ -72,18 +74,18 @@ def frame(a: Point, b: Point, c: Point, lattice: Any) -> Frame:
     thinness = uu * vv / ss
     centre = scale(0.5 / ss, cross(sub(scale(uu, v), scale(vv, u)), normal))
     decided = thinness < 2.0**80
-    blur = jnp.where(decided, 44 * e * thinness * (jnp.sqrt(uu) + jnp.sqrt(vv)), jnp.inf)
+    centre_error = jnp.where(decided, 44 * e * thinness * (jnp.sqrt(uu) + jnp.sqrt(vv)), jnp.inf)
     exact = jnp.where(lattice, 0.0, 12 * e)
-    doubt = Point(*(jnp.where(decided, exact * x, jnp.inf) for x in size))
-    return Frame(origin, normal, doubt, centre, blur)
+    normal_error = Point(*(jnp.where(decided, exact * x, jnp.inf) for x in size))
+    return Frame(origin, normal, normal_error, centre, centre_error)
 
 
-def cross_sizes(u: Point, v: Point) -> Point:
+def cross_sizes(u: Point[Array], v: Point[Array]) -> Point[Array]:
     """The sizes P of the products that a cross product is made of."""
     return Point(u.y * v.z + u.z * v.y, u.z * v.x + u.x * v.z, u.x * v.y + u.y * v.x)
 
 
-def distance_bounds(face: Frame, site: Point) -> tuple[Any, Any]:
+def distance_bounds(face: Frame, site: Point[Array]) -> tuple[Array, Array]:
     """Bounds (low, high) of s(site); (inf, inf) where the site is not above the face.
 
     A site that may be above or not has no upper bound; one that may be coplanar and on the circumcircle of
@@ -91,12 +93,14 @@ def distance_bounds(face: Frame, site: Point) -> tuple[Any, Any]:
     """
     w = sub(site, face.origin)
     size = absolute(w)
-    height, error = dot(face.normal, w), dot(face.doubt, size)
+    height, error = dot(face.normal, w), dot(face.normal_error, size)
     beside = sub(sub(w, face.centre), face.centre)
     numerator = dot(w, beside)
     e = 10 * epsilon(w.x)
-    blur = sum(m * (e * jnp.abs(x) + face.blur) for m, x in zip(size, beside, strict=True))
-    least, most = numerator - blur, numerator + blur
+    numerator_error = total(
+        m * (e * jnp.abs(x) + face.centre_error) for m, x in zip(size, beside, strict=True)
+    )
+    least, most = numerator - numerator_error, numerator + numerator_error
     near, far = height - error, height + error
     # comparisons are put so that a NaN, where nothing is known, leaves the site a candidate
     low = jnp.where(
@@ -109,11 +113,11 @@ def distance_bounds(face: Frame, site: Point) -> tuple[Any, Any]:
     return jnp.where(below, jnp.inf, low), jnp.where(below, jnp.inf, high)
 
 
-def may_hold(face: Frame, bound: Any, low: Point, high: Point) -> Any:
+def may_contain(face: Frame, bound: Array, low: Point[Array], high: Point[Array]) -> Array:
     """Whether a box may hold a site above the face with s(site) <= bound, or one in its circumcircle."""
     lo, hi = sub(low, face.origin), sub(high, face.origin)
     size = Point(*(jnp.maximum(jnp.abs(x), jnp.abs(y)) for x, y in zip(lo, hi, strict=True)))
-    height = dot(face.doubt, size)
+    height = dot(face.normal_error, size)
     for n, x, y in zip(face.normal, lo, hi, strict=True):
         height += jnp.maximum(n * x, n * y)
     # a box without volume above the plane matters only for the face's own circle
@@ -121,9 +125,9 @@ def may_hold(face: Frame, bound: Any, low: Point, high: Point) -> Any:
     # s(w) > bound where <w, w> - <w, 2 o + bound N> is positive: least along each axis by itself
     gap, error = jnp.zeros_like(s), jnp.zeros_like(s)
     e = 10 * epsilon(low.x)
-    for o, n, p, x, y, m in zip(face.centre, face.normal, face.doubt, lo, hi, size, strict=True):
+    for o, n, p, x, y, m in zip(face.centre, face.normal, face.normal_error, lo, hi, size, strict=True):
         twice = 2 * o + s * n
         w = jnp.clip(twice / 2, x, y)
         gap += w * (w - twice)
-        error += m * (e * (m + 2 * jnp.abs(o) + jnp.abs(s * n)) + face.blur + jnp.abs(s) * p)
+        error += m * (e * (m + 2 * jnp.abs(o) + jnp.abs(s * n)) + face.centre_error + jnp.abs(s) * p)
     return ~(height < 0) & ~(gap > error)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
+from jax import Array
 
 import scanvec as sv
 
@@ -14,6 +15,7 @@ from ...predicates.traced import one_case
 from ...predicates.traced.digits import limbs_of
 from ...predicates.workspace import DIGIT_BITS
 from ..buckets import Buckets
+from ..faces import Face
 
 # With differences of so many bits the height of a site above a face, a sum of six products of three, is
 # exact.
@@ -36,12 +38,15 @@ def check_magnitudes(coordinates: np.ndarray) -> None:
         raise ValueError(msg)
 
 
-def small_integers(limbs: np.ndarray) -> bool:
+def are_small_integers(limbs: np.ndarray) -> bool:
     """Whether coordinates, digits (L, n, 3), are small integers times one power of two, up to an offset."""
     if len(limbs) > 2:
         return False
     values = sum(x.astype(np.int64) << (DIGIT_BITS * k) for k, x in enumerate(limbs))
     return bool((np.ptp(values, axis=0) < 2**LATTICE_BITS).all())
+
+
+Digits: TypeAlias = tuple[tuple[Array, ...], ...]  # of each of three coordinates
 
 
 @dataclass(frozen=True)
@@ -65,7 +70,7 @@ class ExactSites:
     @cached_property
     def lattice(self) -> bool:
         """Whether all coordinates are small integers times one power of two, up to an offset."""
-        return small_integers(self._limbs)
+        return are_small_integers(self._limbs)
 
     @cached_property
     def digits(self) -> tuple[tuple[sv.Vector, ...], ...]:
@@ -74,25 +79,29 @@ class ExactSites:
         axes = tuple(
             tuple(machine.vector(np.ascontiguousarray(x[:, axis])) for x in self._limbs) for axis in range(3)
         )
-        return sv.get(axes, self.buckets.origin)
+        digits: tuple[tuple[sv.Vector, ...], ...] = sv.get(axes, self.buckets.origin)
+        return digits
 
     @property
     def rank(self) -> sv.Vector:
         """Each site's place in the lexicographic order."""
         return self.buckets.origin
 
-    def orientation(self, face: Any, site: sv.Vector) -> sv.Vector:
+    def orientation(self, face: Face[sv.Vector], site: sv.Vector) -> sv.Vector:
         """Signs of det[b-a, c-a, d-a], int32 (m,), of m faces (a, b, c) and sites d."""
         points = (sv.get(self.digits, v) for v in (*face, site))
-        return site.machine.map(one_case.orient3d, *points)
+        signs: sv.Vector = site.machine.map(one_case.orient3d, *points)
+        return signs
 
-    def inside(self, face: Any, apex: sv.Vector, site: sv.Vector) -> sv.Vector:
+    def inside(self, face: Face[sv.Vector], apex: sv.Vector, site: sv.Vector) -> sv.Vector:
         """Whether sites are inside the perturbed circumspheres of m positive tetrahedra (a, b, c, apex)."""
         named = (*face, apex, site)
         points = (sv.get(self.digits, v) for v in named)
         ranks = (sv.get(self.rank, v) for v in named)
-        return site.machine.map(_inside, *points, *ranks)
+        inside: sv.Vector = site.machine.map(_inside, *points, *ranks)
+        return inside
 
 
-def _inside(a: Any, b: Any, c: Any, d: Any, e: Any, *ranks: Any) -> Any:
-    return one_case.inside((a, b, c, d), ranks[:4], e, ranks[4])
+def _inside(a: Digits, b: Digits, c: Digits, d: Digits, e: Digits, *ranks: Array) -> Array:
+    inside: Array = one_case.inside((a, b, c, d), ranks[:4], e, ranks[4])
+    return inside

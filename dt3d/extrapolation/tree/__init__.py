@@ -1,1 +1,1 @@
-"""Beyond the paper: a tree of boxes in place of uniform cells, for sites that do not fill space evenly."""
+"""Beyond the paper: the search of section 4.2 through a tree of boxes, for sites that are not even."""

@@ -1,28 +1,17 @@
-"""The hash table against a dict, and the dead faces against what they stand for."""
-
-import itertools
+"""Dictionaries, against those of Python."""
 
 import hypothesis.strategies as st
 import numpy as np
 import pytest
 from hypothesis import given
 
+import dt3d
 import scanvec as sv
 from dt3d.extrapolation import dictionary
-from dt3d.extrapolation.dead_faces import (
-    Tetrahedron,
-    bury,
-    bury_boundary,
-    distinct,
-    face_key,
-    face_of,
-    no_dead_faces,
-    open_faces,
-    opposite,
-)
-from dt3d.extrapolation.expansion import Face
 
 MACHINES = (sv.Device(), sv.Simulated(processors=3))
+
+
 keys = st.lists(st.tuples(*[st.integers(-3, 3)] * 2), max_size=40)
 
 
@@ -57,10 +46,12 @@ def test_the_table_grows_and_forgets_nothing():
 
 
 def test_keys_that_share_a_slot_find_others(monkeypatch):
-    monkeypatch.setattr(dictionary, "_hash", lambda key: key[0].astype("uint32") * 0 + 1023)  # and wrap round
+    monkeypatch.setattr(
+        dictionary, "hash32", lambda key: key[0].astype("uint32") * 0 + 1023
+    )  # and wrap round
 
     def first_probe(index, key, slots):
-        slot = dictionary._hash(key) & (slots - 1)
+        slot = dictionary.hash32(key) & (slots - 1)
         return dictionary._Probe(index, key, slot.astype("int32"))
 
     monkeypatch.setattr(dictionary, "_first_probe", first_probe)  # not the kernel compiled with the real hash
@@ -71,57 +62,15 @@ def test_keys_that_share_a_slot_find_others(monkeypatch):
     assert found.to_numpy().tolist() == [3, dictionary.ABSENT, 0]
 
 
-@pytest.mark.parametrize("k", range(4))
-def test_a_face_and_its_opposite_vertex_keep_the_orientation(k):
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
-    t = Tetrahedron(*(np.int32(i) for i in range(4)))
-    a, b, c = corners[[int(i) for i in face_of(t, np.int32(k))]]
-    assert np.linalg.det([b - a, c - a, corners[k] - a]) > 0
+def full_dictionary(slots):
+    """All slots are taken by one entry."""
+    return dictionary.Dictionary(MACHINES[0].full(slots, 0, np.int32), (MACHINES[0].full(1, 5, np.int32),))
 
 
-def test_keys_tell_the_sides_apart_and_nothing_else():
-    side = {tuple(map(int, face_key(Face(*map(np.int32, p))))) for p in [(4, 7, 9), (7, 9, 4), (9, 4, 7)]}
-    other = {tuple(map(int, face_key(Face(*map(np.int32, p))))) for p in [(4, 9, 7), (9, 7, 4), (7, 4, 9)]}
-    assert side == {(4, 7, 9, 0)}
-    assert other == {(4, 7, 9, 1)}
-    f = Face(*map(np.int32, (4, 7, 9)))
-    assert tuple(map(int, face_key(opposite(f)))) == (4, 7, 9, 1)
-
-
-def tetrahedra(machine, rows):
-    return Tetrahedron(*vectors(machine, rows, 4))
-
-
-def as_rows(record):
-    return np.stack([v.to_numpy() for v in record], axis=1).tolist()
-
-
-def test_each_tetrahedron_is_kept_once():
-    machine = MACHINES[0]
-    rows = [*itertools.permutations([3, 1, 8, 5]), [1, 3, 5, 9], [9, 5, 3, 1], [3, 1, 8, 5]]
-    assert as_rows(distinct(tetrahedra(machine, rows))) == [[3, 1, 8, 5], [1, 3, 5, 9]]
-
-
-@pytest.mark.parametrize("machine", MACHINES, ids=repr)
-def test_of_two_tetrahedra_on_one_side_of_a_face_the_first_stays(machine):
-    dead = no_dead_faces(machine)
-    # the second has the first's face (0, 1, 2) with its own fourth vertex on the same side
-    dead, kept, lost = bury(dead, tetrahedra(machine, [[0, 1, 2, 3], [0, 1, 2, 4], [5, 6, 7, 8]]), 0)
-    assert as_rows(kept) == [[0, 1, 2, 3], [5, 6, 7, 8]]
-    assert lost == 1
-    # also against an earlier batch; a neighbour on the other side is no contradiction
-    dead, kept, lost = bury(dead, tetrahedra(machine, [[2, 0, 1, 9], [1, 0, 2, 9]]), 2)
-    assert as_rows(kept) == [[1, 0, 2, 9]]
-    assert lost == 1
-    dead, lost = bury_boundary(dead, Face(*vectors(machine, [[0, 1, 2], [30, 31, 32]], 3)))
-    assert lost == 1
-
-
-def test_outward_faces_are_open_unless_dead():
-    machine = MACHINES[0]
-    both = tetrahedra(machine, [[0, 1, 2, 3], [1, 0, 2, 9]])  # they share the face 0 1 2
-    dead, kept, _ = bury(no_dead_faces(machine), both, 0)
-    opened = {frozenset(f) for f in as_rows(open_faces(dead, kept))}
-    assert opened == {
-        frozenset(f) for f in [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 2, 9), (1, 2, 9), (0, 1, 9)]
-    }
+def test_a_full_dictionary_is_not_searched_for_ever():
+    table = full_dictionary(16)
+    assert dictionary.look_up(table, (MACHINES[0].full(1, 5, np.int32),)).to_numpy().tolist() == [0]
+    with pytest.raises(dt3d.InternalError, match="a key has looked at all 16 slots.*please report"):
+        dictionary.look_up(table, (MACHINES[0].full(1, 7, np.int32),))
+    with pytest.raises(dt3d.InternalError, match="a key has looked at all 16 slots"):
+        dictionary.insert(table, (MACHINES[0].full(2, 7, np.int32),))

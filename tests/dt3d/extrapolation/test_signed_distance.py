@@ -33,7 +33,7 @@ def test_sign_of_the_height_is_the_orientation(rows):
         return
     face = in_double(frame, a, b, c)
     finite = np.isfinite(in_double(signed_distance, face, d))
-    # coplanar lattice sites are exactly coplanar; the least other height is far above the blur
+    # coplanar lattice sites are exactly coplanar; the least other height is far above the error
     assert finite == (orient(*exact[:4]) > 0)
 
 
@@ -84,4 +84,4 @@ def test_the_normal_is_a_unit_vector_also_of_thin_faces():
         normal = np.array(face.normal)
         assert abs(np.linalg.norm(normal) - 1) < 1e-15
         for edge in edges:
-            assert abs(normal @ edge) < face.blur
+            assert abs(normal @ edge) < face.height_error

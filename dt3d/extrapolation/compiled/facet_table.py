@@ -8,29 +8,31 @@ for again and stay until the table is made anew.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 import jax
 import jax.numpy as jnp
+from jax import Array
 
-from ..dictionary import _hash as mixed
-from .expand import at
+from ..dictionary import ABSENT, EMPTY_SLOT, hash32
+from .chunks import S, at, barrier
 
-EMPTY = 2**31 - 1
-ABSENT = -1
+Facet: TypeAlias = tuple[Array, Array, Array]  # vertices in ascending order
+
 TURNS_OF_ALL = 2
 MOST_TURNS = 2**31 - 1  # that 32 bits can count
-FEW = 8  # one in so many goes on at a time,
+ONE_IN = 8  # of those that wait goes on at a time,
 TURNS_OF_FEW = 4  # so many turns
 
 
-def ascending(a: Any, b: Any, c: Any) -> tuple[Any, Any, Any]:
+def ascending(a: Array, b: Array, c: Array) -> Facet:
     """Three numbers in ascending order: the name of a facet."""
     low, high = jnp.minimum(a, b), jnp.maximum(a, b)
     return jnp.minimum(low, c), jnp.maximum(low, jnp.minimum(high, c)), jnp.maximum(high, c)
 
 
-def facet_of(corners: Any, half: Any) -> tuple[Any, Any, Any]:
+def facet_of(corners: Array, half: Array) -> Facet:
     """The name of the facet of a half-face."""
     first, k = half & ~3, half & 3
     return ascending(
@@ -38,18 +40,20 @@ def facet_of(corners: Any, half: Any) -> tuple[Any, Any, Any]:
     )
 
 
-def first_slot(facet: Any, slots: int) -> Any:
-    return (mixed(facet) & jnp.uint32(slots - 1)).astype(jnp.int32)
+def first_slot(facet: Facet, slots: int) -> Array:
+    """Where the search for a facet begins."""
+    slot: Array = (hash32(facet) & jnp.uint32(slots - 1)).astype(jnp.int32)
+    return slot
 
 
-def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any, Any]:
+def look_up(table: Array, corners: Array, facet: Facet, active: Array) -> tuple[Array, Array, Array]:
     """The half-face of each facet, or `ABSENT`; the slot where the search ended; and how many did not end."""
     slots = len(table)
 
     def turn(shared: None, probe: Probe) -> tuple[None, Probe]:
-        entry = jax.lax.optimization_barrier(at(table, probe.slot))
-        taken = entry != EMPTY
-        same = jax.lax.optimization_barrier(taken & _names(probe.facet, corners, entry, taken))
+        entry = barrier(at(table, probe.slot))
+        taken = entry != EMPTY_SLOT
+        same = barrier(taken & _names(probe.facet, corners, entry, taken))
         going = probe.waiting & taken & ~same
         slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
         return shared, probe._replace(
@@ -62,7 +66,9 @@ def look_up(table: Any, corners: Any, facet: Any, active: Any) -> tuple[Any, Any
     return probe.found, probe.slot, _still_waiting(probe)
 
 
-def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: Any) -> tuple[Any, Any, Any]:
+def insert(
+    table: Array, corners: Array, facet: Facet, half: Array, slot: Array, active: Array
+) -> tuple[Array, Array, Array]:
     """Enter half-faces of facets that are not in the table, from the given slots on.
 
     Also the half-face that was there first, where two of the batch are of one facet, otherwise `ABSENT`; and
@@ -70,13 +76,13 @@ def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: A
     """
     slots = len(table)
 
-    def turn(table: Any, probe: Probe) -> tuple[Any, Probe]:
-        free = probe.waiting & (at(table, probe.slot) == EMPTY)
+    def turn(table: Array, probe: Probe) -> tuple[Array, Probe]:
+        free = probe.waiting & (at(table, probe.slot) == EMPTY_SLOT)
         table = table.at[jnp.where(free, probe.slot, slots)].min(probe.half, mode="drop")
-        entry = jax.lax.optimization_barrier(at(table, probe.slot))
+        entry = barrier(at(table, probe.slot))
         mine = entry == probe.half
-        same = _names(probe.facet, corners, entry, entry != EMPTY)
-        same = jax.lax.optimization_barrier(same & probe.waiting & ~mine)
+        same = _names(probe.facet, corners, entry, entry != EMPTY_SLOT)
+        same = barrier(same & probe.waiting & ~mine)
         going = probe.waiting & ~mine & ~same
         slot = jnp.where(going, (probe.slot + 1) & (slots - 1), probe.slot)
         return table, probe._replace(slot=slot, found=jnp.where(same, entry, probe.found), waiting=going)
@@ -86,59 +92,62 @@ def insert(table: Any, corners: Any, facet: Any, half: Any, slot: Any, active: A
     return table, probe.found, _still_waiting(probe)
 
 
-def _still_waiting(probe: Probe) -> Any:
+def _still_waiting(probe: Probe) -> Array:
     return jnp.sum(probe.waiting, dtype=jnp.int32)
 
 
 class Probe(NamedTuple):
     """Facets that look for their slots."""
 
-    facet: Any
-    half: Any
-    slot: Any
-    found: Any
-    waiting: Any
+    facet: Facet
+    half: Array
+    slot: Array  # where each is
+    found: Array  # the half-face found, or `ABSENT`
+    waiting: Array  # whether it goes on
 
 
-def _names(facet: Any, corners: Any, entry: Any, taken: Any) -> Any:
+def _names(facet: Facet, corners: Array, entry: Array, taken: Array) -> Array:
     other = facet_of(corners, jnp.where(taken, entry, 0))
     return (facet[0] == other[0]) & (facet[1] == other[1]) & (facet[2] == other[2])
 
 
-def _until_done(turn: Any, shared: Any, probe: Probe, slots: int) -> tuple[Any, Probe]:
+def _until_done(
+    turn: Callable[[S, Probe], tuple[S, Probe]], shared: S, probe: Probe, slots: int
+) -> tuple[S, Probe]:
     """Turns of all, then of those that still wait, packed together: few wait for long.
 
     In every turn a facet is done or goes on to another slot, and the first few of those that wait take turns
     until they are done. So, as some slots are free, there are fewer turns than ``most``.
     """
     size = len(probe.slot)
-    few = -(-size // FEW)
-    most = min((FEW + 1) * (slots // TURNS_OF_FEW + 1), MOST_TURNS)
+    few = -(-size // ONE_IN)
+    most = min((ONE_IN + 1) * (slots // TURNS_OF_FEW + 1), MOST_TURNS)
     for _ in range(TURNS_OF_ALL):
         shared, probe = turn(shared, probe)
 
-    def again(state: Any) -> Any:
+    def again(state: tuple[Array, S, Probe]) -> tuple[Array, S, Probe]:
         turns, shared, probe = state
         place = jnp.cumsum(probe.waiting, dtype=jnp.int32)
         target = jnp.where(probe.waiting & (place <= few), place - 1, few)
-        lane = jnp.full(few, size, jnp.int32).at[target].set(jnp.arange(size, dtype=jnp.int32), mode="drop")
-        there = jnp.minimum(lane, size - 1)
+        index = jnp.full(few, size, jnp.int32).at[target].set(jnp.arange(size, dtype=jnp.int32), mode="drop")
+        there = jnp.minimum(index, size - 1)
         part = jax.tree.map(lambda x: at(x, there), probe)
-        part = part._replace(waiting=part.waiting & (lane < size))
+        part = part._replace(waiting=part.waiting & (index < size))
         for _ in range(TURNS_OF_FEW):
             shared, part = turn(shared, part)
         return (
             turns + 1,
             shared,
             probe._replace(
-                slot=probe.slot.at[lane].set(part.slot, mode="drop"),
-                found=probe.found.at[lane].set(part.found, mode="drop"),
-                waiting=probe.waiting.at[lane].set(part.waiting, mode="drop"),
+                slot=probe.slot.at[index].set(part.slot, mode="drop"),
+                found=probe.found.at[index].set(part.found, mode="drop"),
+                waiting=probe.waiting.at[index].set(part.waiting, mode="drop"),
             ),
         )
 
-    def unfinished(state: Any) -> Any:
+    def unfinished(state: tuple[Array, S, Probe]) -> Array:
         turns, _, probe = state
         return jnp.any(probe.waiting) & (turns < most)
 
-    return jax.lax.while_loop(unfinished, again, (jnp.int32(0), shared, probe))[1:]
+    _, shared, probe = jax.lax.while_loop(unfinished, again, (jnp.int32(0), shared, probe))
+    return shared, probe
