@@ -1,4 +1,4 @@
-"""One run on every machine model, from 2^4 to 2^20 processors: not in the paper.
+"""One run on every machine model, from 2^4 to 2^20 processors: what Teng et al. 1993, section 6, conjecture.
 
 The tetrahedra and the steps do not depend on the number of processors, so one run counts the loads of all of
 them: what crosses between processors is counted anew for each number, from the same indices.

@@ -1,4 +1,7 @@
-"""Points and vectors of space as records of three coordinates, for elementwise code."""
+"""Points and vectors of space as records of three coordinates, for elementwise code.
+
+Teng et al. 1993, section 2.4.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Exact face expansions: the filtered search, and exact decisions where it leaves several sites open.
 
 Sites are perturbed symbolically: site p is lifted to height |p|^2 + e_p with infinitesimals e_p. Then each
-face has one right fourth vertex, which depends on nothing but the sites (see the ties in `dt3d.predicates.space`).
+face has one right fourth vertex, which depends on nothing but the sites (`dt3d.predicates.space`).
 """
 
 from __future__ import annotations
