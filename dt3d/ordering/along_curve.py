@@ -132,11 +132,15 @@ def _grid(sites: np.ndarray, most_bits: int, key_bits: int) -> Grid:
 @cached_njit(nogil=True)
 def bounds(sites):
     """Return the least and the greatest corner of the box of sites float64 (n, d): float64 (2, d)."""
-    box = np.empty((2, sites.shape[1]))
-    for k in range(sites.shape[1]):
-        low = high = sites[0, k]
-        for i in range(len(sites)):
+    n, d = sites.shape
+    box = np.empty((2, d))
+    for k in range(d):
+        low = high = even_low = even_high = sites[0, k]
+        # two chains of comparisons, which a processor follows at the same time
+        for i in range(1, n - 1, 2):
             low, high = min(low, sites[i, k]), max(high, sites[i, k])
+            even_low, even_high = min(even_low, sites[i + 1, k]), max(even_high, sites[i + 1, k])
+        low, high = min(low, even_low, sites[n - 1, k]), max(high, even_high, sites[n - 1, k])
         box[0, k], box[1, k] = low, high
     return box
 

@@ -56,7 +56,7 @@ def flip_illegal(mesh, edges):
     top, flips = len(edges), 0
     stack = np.empty(2 * top + 4, np.int64)
     stack[:top] = edges
-    while top > 0 and stop_reason(mesh, 0) == GO_ON:
+    while top > 0 and stop_reason(mesh, 0, True) == GO_ON:
         top -= 1
         t, k = triangle(stack[top]), side(stack[top])
         if mesh.nodes[t, c.CHILD] >= 0 or not is_illegal(mesh, t, k):

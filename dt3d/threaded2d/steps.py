@@ -51,12 +51,15 @@ def add_cycles(state, me, column, begun):
 
 
 @cached_njit(forceinline=True)
-def stop_reason(mesh, me):
+def stop_reason(mesh, me, with_history):
     """Why thread ``me`` has to return, if it may, or `GO_ON`.
 
     `STOPPED` when all threads have to stop; `FULL` when the structure has to grow first; `OPEN_SWAPS` when
-    illegal edges are to be corrected. A thread that holds locks, or has subdivided, goes on.
+    illegal edges are to be corrected. A thread that holds locks, or has subdivided, goes on. In place a step
+    is a whole insertion, the structure does not grow, and all edges are legal.
     """
+    if not with_history:
+        return STOPPED if load(mesh.shared, (c.STOP, 0)) != 0 else GO_ON
     shared, phase = mesh.shared, mesh.state[me, c.PHASE]
     if phase == c.CHANGE:
         return GO_ON
@@ -82,6 +85,7 @@ def column_of(outcome):
 step: Any = None
 wait: Any = None
 clock: Any = None
+with_history: Any = None
 
 
 @cached_njit(nogil=True)
@@ -91,7 +95,7 @@ def _run(mesh, me, tools):
     waited, column = 0, c.LOCATION_CYCLES
     begun = cycles()
     while True:
-        reason = stop_reason(mesh, me)
+        reason = stop_reason(mesh, me, with_history)
         if reason != GO_ON:
             break
         outcome = step(mesh, me, tools)
@@ -110,8 +114,9 @@ def _run(mesh, me, tools):
             if clock == Clock.BY_STEPS:
                 begun = add_cycles(mesh.state, me, c.WAIT_CYCLES, begun)
         else:
-            # it may find again and again that what it looked at has changed
-            strive(mesh, me, STEP)
+            if outcome != CHANGED:
+                # it may find again and again that what it looked at has changed
+                strive(mesh, me, STEP)
             waited = 0
         inject_yield(mesh, me)
     if clock == Clock.BY_WAITS:
@@ -156,8 +161,10 @@ def method(
     *,
     wait: Callable[..., int] = wait_in_turns,
     clock: Clock = Clock.BY_STEPS,
+    with_history: bool = True,
 ) -> Method:
     """A method of these steps; ``wait(mesh, me, waited)`` waits a little and returns the effort."""
     module = step.__module__
     name = module.rpartition(".")[2]
-    return Method(tools, step, specialised(_run, module, name, step=step, wait=wait, clock=clock))
+    own = {"step": step, "wait": wait, "clock": clock, "with_history": with_history}
+    return Method(tools, step, specialised(_run, module, name, **own))

@@ -115,4 +115,4 @@ def _wait(mesh, me, waited):
     return STEP if waited + 1 < ATTEMPTS + TURNS else NAP
 
 
-METHOD = method(tools, step, wait=_wait, clock=Clock.NEVER)
+METHOD = method(tools, step, wait=_wait, clock=Clock.NEVER, with_history=False)
