@@ -1,11 +1,10 @@
-"""The circum-circle method: geometry tells which thread waits (Kohout et al. 2004, section 3.4,
-Algorithm 3).
+"""The circum-circle method: geometry tells which thread waits.
 
-An insertion changes only triangles that are in conflict with its site, or have it as a vertex. Every thread
-publishes its site in a pool before it changes anything. It subdivides or flips when no other site of the pool
-is in conflict with, or a vertex of, the triangles that change and their neighbours; otherwise it waits for
-the thread whose site that is to finish it. As each publishes before it looks, of two that want the same at
-least one sees the other.
+Algorithm 3 of Kohout et al. 2004 (section 3.4). An insertion changes only triangles that are in conflict with
+its site, or have it as a vertex. Every thread publishes its site in a pool before it changes anything. It
+subdivides or flips when no other site of the pool is in conflict with, or a vertex of, the triangles that
+change and their neighbours; otherwise it waits for the thread whose site that is to finish it. As each
+publishes before it looks, of two that want the same at least one sees the other.
 
 Two that see each other would wait for ever. So a thread looks, in a short critical section, whether the one
 it would wait for waits for it, through others perhaps. Then it goes on, since those cannot, and flags their

@@ -27,6 +27,7 @@ def first_triangle(
     Parameters
     ----------
     points : float64 (n, 2)
+        The sites, in the range of the exact predicates.
     order : int64 (n,)
         All sites, part by part.
     bounds : int64 (parts + 1,)

@@ -41,8 +41,10 @@ def _call_conflicts_with_ghost(typingctx, points, a, b, q, w):
 
 @cached_njit(forceinline=True)
 def conflicts(points, a, b, c, q, w):
-    """Whether site q is in conflict with the triangle abc, of which one may be infinite; q is none of
-    them."""
+    """Whether site q is in conflict with the triangle abc, one vertex of which may be infinite.
+
+    No vertex is q.
+    """
     if min(a, b, c) >= 0:
         return inside(points, (a, b, c), q, w)
     if a == INFINITE:

@@ -47,8 +47,10 @@ def share(order: np.ndarray, bounds: np.ndarray) -> Schedule:
 
 
 def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The order with the first ``count`` sites of each part in front of all parts, and the bounds that the
-    parts then have; ``bounds[0]`` sites are in front."""
+    """The order with the first ``count`` sites of each part in front of all parts, and the new bounds.
+
+    There are ``bounds[0]`` sites in front.
+    """
     parts = list(pairwise(bounds.tolist()))
     counts = [min(count, end - begin) for begin, end in parts]
     front = [order[begin : begin + c] for (begin, _), c in zip(parts, counts, strict=True)]

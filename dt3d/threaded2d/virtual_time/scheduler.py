@@ -124,7 +124,8 @@ def _simulate(mesh, tools, elements, costs, prices):
 @cache
 def _simulation(method: str) -> Callable[..., tuple[float, float]]:
     """The scheduler of a method's steps."""
-    return specialised(_simulate, __name__, method, step=METHODS[method].step)
+    kernel: Callable[..., tuple[float, float]] = _simulate
+    return specialised(kernel, __name__, method, step=METHODS[method].step)
 
 
 @cached_njit(nogil=True)
@@ -183,11 +184,13 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
     Parameters
     ----------
     points : float64 (n, 2)
+        The sites, in the range of the exact predicates.
     options : Options
         location="dag"; with the pessimistic method a thread for each element.
     elements : int
         1 to 64.
     costs : Costs
+        Seconds of the operations that a step counts.
 
     Raises
     ------
