@@ -40,7 +40,9 @@ def test_what_was_located_before_others_have_inserted_is_located_again(location)
     finished = set()
     while finished != {0, 1}:
         for k in (0, 1):
-            if step(meshes[k], k, tools) == FINISHED:
+            outcome = step(meshes[k], k, tools)
+            assert outcome != WAITING
+            if outcome == FINISHED:
                 finished.add(k)
         stale += store.nodes[store.state[2, c.NODE], c.CHILD] >= 0
     assert stale > 0

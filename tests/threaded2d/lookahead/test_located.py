@@ -35,6 +35,7 @@ def test_every_site_is_located_and_taken_once(location, ahead):
                 located.append((int(item[ITEM_SITE]), int(item[ITEM_NODE])))
         while state[c.LOCATED_END] > 0:
             taken.append(tuple(next_located(mesh, 0, lookahead)))
+            assert len(taken) <= len(located)
             assert state[c.LOCATED_AT] < max(1, state[c.LOCATED_END])
     assert taken == located
     assert sorted(q for q, _ in taken) == sorted(others.tolist())
