@@ -1,13 +1,10 @@
 """Sets with all magnitudes of float64: no rounded difference decides order, or whether sites are equal."""
 
-import warnings
-
 import numpy as np
 import pytest
 
 from dt3d import threaded2d
 from dt3d.ordering.along_curve import along_curve_in_plane
-from dt3d.threaded2d.input_subdivision import SUBDIVISIONS, parts_of
 
 from .families import canonical
 from .test_triangulation import brute_force
@@ -123,22 +120,3 @@ def test_the_curve_has_cells_where_differences_overflow():
     np.testing.assert_array_equal(
         along_curve_in_plane(points)[0], along_curve_in_plane(points * 2.0**-1000)[0]
     )
-
-
-@pytest.mark.parametrize("subdivision", SUBDIVISIONS)
-def test_subdivisions_of_sets_whose_squares_overflow(subdivision):
-    points = np.vstack([np.random.default_rng(0).random((200, 2)) * 1.7e308, [[5e-324, 0]]])
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        tri = threaded2d.Delaunay(points, method="optimistic", threads=2, subdivision=subdivision)
-    assert tri.verify(), tri.verify()
-
-
-def test_rings_about_the_origin_at_all_magnitudes():
-    distance = np.concatenate([np.ldexp(1.0, np.arange(-1070, 1024, 7)), [1.5e308]])
-    angle = np.random.default_rng(0).random(len(distance))
-    points = np.column_stack([np.cos(angle), np.sin(angle)]) * distance[:, None]
-    part = parts_of(points, "distance", 3, 0)
-    assert (np.diff(part) >= 0).all()
-    assert part[0] == 0
-    assert part[-1] == 2

@@ -1,4 +1,4 @@
-"""Pictures and meshes of triangles, coloured by thread; and what is counted by thread."""
+"""Pictures and meshes of triangles, coloured by thread."""
 
 import numpy as np
 import pytest
@@ -27,22 +27,6 @@ def test_plot_on_given_and_on_new_axes():
     new = tri.plot()
     assert new is not ax
     assert len({tuple(c) for c in new.collections[0].get_facecolor()}) == len(np.unique(tri.thread))
-
-
-def test_who_inserted_what():
-    points = uniform(2000)
-    slabs = threaded2d.Delaunay(points, method="optimistic", threads=4, subdivision="x-slabs")
-    by_x = slabs.inserted_by[np.argsort(points[:, 0])]
-    # but for the first triangle, which is the first thread's, the threads have slabs of 500
-    assert (by_x != np.arange(2000) // 500).sum() <= 3
-    batch = threaded2d.Delaunay(points, method="batch", threads=3)
-    assert set(batch.thread.tolist()) == {2}
-    assert set(batch.inserted_by.tolist()) == {0, 1}
-    assert batch.stats.inserted[:2] == (0, 0)
-    assert batch.stats.queue_length == 64
-    assert batch.stats.queue_fill > 0
-    circle = threaded2d.Delaunay(points, method="circumcircle", threads=4)
-    assert circle.stats.accesses >= len(points) - 3
 
 
 def test_crater_lake():
