@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.core.base import BaseContext
@@ -20,6 +21,8 @@ from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
 from .kernel_cache import cached_njit
+
+PAIR_OF_LINES = 128  # bytes
 
 
 def element(
@@ -191,4 +194,17 @@ def release(words, at):
 
 def padded(n: int) -> np.ndarray:
     """Return n words, int64 (n, 16), of which only column 0 is used: each has two cache lines of its own."""
-    return np.zeros((n, 16), np.int64)
+    return rows_apart(n, 1)
+
+
+def rows_apart(n: int, columns: int, dtype: npt.DTypeLike = np.int64) -> np.ndarray:
+    """Return zeros, n rows of ``columns`` entries or a few more, for threads that write to one row each.
+
+    No two rows are in one pair of cache lines: a processor that writes to a line takes it from all others,
+    and fetches lines in pairs. Only what is used gets memory.
+    """
+    item = np.dtype(dtype).itemsize
+    columns = -(-columns * item // PAIR_OF_LINES) * PAIR_OF_LINES // item
+    words = np.zeros(n * columns + PAIR_OF_LINES // item, dtype)
+    skipped = -words.ctypes.data % PAIR_OF_LINES // item
+    return words[skipped : skipped + n * columns].reshape(n, columns)

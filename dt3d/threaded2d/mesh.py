@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._memory import require
-from .._numba.atomics import add, give_way, padded
+from .._numba.atomics import add, give_way, padded, rows_apart
 from .._numba.kernel_cache import cached_njit
 from ..predicates import work_array
 from . import columns as c
@@ -38,7 +38,7 @@ class Mesh(NamedTuple):
     nodes : int32 (capacity, 8)
     shared : int64 (9, 16)
         Words that all write to.
-    state : int64 (threads, 40)
+    state : int64 (threads, 48)
         Each thread writes to its own row.
     workspace : float64 (k,)
         Of the exact predicates of this thread.
@@ -124,7 +124,7 @@ class Store:
         # words that are zero are of no triangle: they have children
         self.nodes = np.zeros((soft + self.reserve if capacity is None else capacity, c.NODE_WORDS), np.int32)
         write_roots(self.nodes, *(int(v) for v in first))
-        self.state = np.zeros((threads, c.STATE_COLUMNS), np.int64)
+        self.state = rows_apart(threads, c.STATE_COLUMNS)
         self.state[:, c.PART] = np.arange(threads)
         self.state[:, c.RANDOM] = np.arange(1, threads + 1) * 0x9E3779B9
         self.shared = padded(c.SHARED_ROWS)

@@ -7,7 +7,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._numba.atomics import acquire, load, load_acquire, release, store, store_release
+from .._numba.atomics import (
+    acquire,
+    load,
+    load_acquire,
+    release,
+    rows_apart,
+    store,
+    store_release,
+)
 from .._numba.kernel_cache import cached_njit
 from . import columns as c
 from .geometry import in_conflict
@@ -23,8 +31,8 @@ NOBODY = -1
 
 
 def empty_pool(threads: int) -> np.ndarray:
-    """A pool without sites, int64 (threads, 16 k): each row has lines of the cache of its own."""
-    pool = np.zeros((threads, PATH + 16 * -(-threads // 16)), np.int64)
+    """A pool without sites, int64 (threads, 16 k)."""
+    pool = rows_apart(threads, PATH + threads)
     pool[:, [POOL_SITE, WAITS_FOR]] = NOBODY
     return pool
 

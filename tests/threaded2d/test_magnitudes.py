@@ -7,7 +7,7 @@ from dt3d import threaded2d
 from dt3d.ordering.along_curve import along_curve_in_plane
 
 from .families import canonical
-from .test_triangulation import brute_force
+from .test_delaunay import brute_force
 
 RUNS = [
     (method, threads)

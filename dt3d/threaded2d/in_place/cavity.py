@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..._errors import InternalError
-from ..._numba.atomics import compare_and_swap, load, store_release
+from ..._numba.atomics import compare_and_swap, load, rows_apart, store_release
 from ..._numba.kernel_cache import cached_njit
 from .. import columns as c
 from ..columns import edge, side, triangle
@@ -26,11 +26,11 @@ class Scratch(NamedTuple):
 
     Attributes
     ----------
-    locked : int32 (threads, 4 n + 64)
+    locked : int32 (threads, 4 n + 64 or a few more)
         Triangles that it has locked.
-    cavity : int32 (threads, 4 n + 64)
+    cavity : int32 (threads, 4 n + 64 or a few more)
         Triangles in conflict, and from the end on edges to be crossed.
-    rim : int32 (threads, 12 n + 192)
+    rim : int32 (threads, 12 n + 192 or a few more)
         Triples: the name of the edge beyond, and the vertices from and to which it leads counter-clockwise.
     """
 
@@ -42,7 +42,7 @@ class Scratch(NamedTuple):
 def empty_scratch(n: int, threads: int) -> Scratch:
     """For n sites; only what is used gets memory."""
     longest = 4 * n + 64
-    return Scratch(*(np.empty((threads, k * longest), np.int32) for k in (1, 1, 3)))
+    return Scratch(*(rows_apart(threads, k * longest, np.int32) for k in (1, 1, 3)))
 
 
 @cached_njit(forceinline=True)

@@ -21,6 +21,7 @@ from ..work_sharing import Schedule, next_site
 from .cavity import BUSY, Scratch, empty_scratch, lock_cavity, unlock
 from .walk import walk
 
+SITES_PER_STEP = 64  # so many may go before a thread looks whether it has to stop
 ATTEMPTS = 4  # before a thread that does not get its triangles gives way
 
 
@@ -70,41 +71,53 @@ def fill(mesh, me, q, sizes, scratch, unused, lock):
 
 @cached_njit(forceinline=True)
 def step(mesh, me, tools):
-    """Insert the next site, from the triangle where the last one was.
+    """Insert sites, each from the triangle where the last one was, until one has to wait; some at a time.
 
     Of several threads, each has exclusive access to its conflicts and the triangles around them, and begins
-    again where it does not get it.
+    again where it does not get it. What is counted is added up in registers: threads on one core share what
+    writes to memory.
     """
     nodes, state = mesh.nodes, mesh.state
     lock = me + 1 if len(state) > 1 else 0
     q = next_site(mesh, tools.schedule, me)
     if q < 0:
         return FINISHED
-    t, steps = walk(mesh, state[me, c.HINT], q)
-    state[me, c.VISITED] += steps
-    if steps > len(nodes):
-        if lock == 0:
-            msg = "a walk through a 2D triangulation goes round in circles"
-            raise InternalError(msg)
-        strive(mesh, me, steps)
-    inject_yield(mesh, me)
-    size, edges, count = lock_cavity(mesh, me, t, q, lock, tools.scratch)
-    if size == BUSY:
-        unlock(nodes, tools.scratch.locked[me], count)
-        state[me, c.RETRIES] += 1
-        state[me, c.HINT] = t
-        return WAITING
-    inject_yield(mesh, me)
-    unused = ROOTS + 2 * state[me, c.NEXT]
-    state[me, c.HINT] = fill(mesh, me, q, (size, edges), tools.scratch, unused, lock)
-    if lock != 0:
-        unlock(nodes, tools.scratch.locked[me], count)
-        store_release(nodes, (unused, c.LOCK), 0)
-        store_release(nodes, (unused + 1, c.LOCK), 0)
-    state[me, c.FLIPS] += size - 1
-    store_release(state, (me, c.INSERTED), state[me, c.INSERTED] + 1)  # others look at it while they wait
-    state[me, c.NEXT] += 1
-    return CHANGED
+    hint, at = state[me, c.HINT], state[me, c.NEXT]
+    end = min(at + SITES_PER_STEP, state[me, c.CHUNK_END])
+    visited = flips = 0
+    inserted = state[me, c.INSERTED]
+    outcome = CHANGED
+    while at < end:
+        q = tools.schedule.order[at]
+        t, steps = walk(mesh, hint, q)
+        visited += steps
+        if steps > len(nodes):
+            if lock == 0:
+                msg = "a walk through a 2D triangulation goes round in circles"
+                raise InternalError(msg)
+            strive(mesh, me, steps)
+        inject_yield(mesh, me)
+        size, edges, count = lock_cavity(mesh, me, t, q, lock, tools.scratch)
+        if size == BUSY:
+            unlock(nodes, tools.scratch.locked[me], count)
+            state[me, c.RETRIES] += 1
+            hint, outcome = t, WAITING
+            break
+        inject_yield(mesh, me)
+        unused = ROOTS + 2 * at
+        hint = fill(mesh, me, q, (size, edges), tools.scratch, unused, lock)
+        if lock != 0:
+            unlock(nodes, tools.scratch.locked[me], count)
+            store_release(nodes, (unused, c.LOCK), 0)
+            store_release(nodes, (unused + 1, c.LOCK), 0)
+        flips += size - 1
+        inserted += 1
+        store_release(state, (me, c.INSERTED), inserted)  # others look at it while they wait
+        at += 1
+    state[me, c.HINT], state[me, c.NEXT] = hint, at
+    state[me, c.VISITED] += visited
+    state[me, c.FLIPS] += flips
+    return outcome
 
 
 @cached_njit(forceinline=True)

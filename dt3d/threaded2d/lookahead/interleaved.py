@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..._errors import InternalError
-from ..._numba.atomics import load_acquire
+from ..._numba.atomics import load_acquire, rows_apart
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.prefetch import prefetch
 from .. import columns as c
@@ -27,7 +27,9 @@ IDLE = -1
 
 def idle_searches(threads: int) -> np.ndarray:
     """The searches of each thread: int64 (threads, SEARCHES, 4)."""
-    return np.full((threads, SEARCHES, 4), IDLE, np.int64)
+    searches = rows_apart(threads, 4 * SEARCHES)
+    searches[:] = IDLE
+    return searches.reshape(threads, SEARCHES, 4)
 
 
 @cached_njit(forceinline=True)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..._numba.atomics import rows_apart
 from ..._numba.kernel_cache import cached_njit
 from .. import columns as c
 from ..location import WALK, walk_history
@@ -28,7 +29,7 @@ class Lookahead(NamedTuple):
     ----------
     searches : int64 (threads, SEARCHES, 4)
         On their way; see `interleaved`.
-    located : int64 (threads, MOST_LOCATED + 1, 2)
+    located : int64 (threads, MOST_LOCATED + 1 or a few more, 2)
         Sites and their leaves, and one of another thread that is helped.
     """
 
@@ -38,7 +39,8 @@ class Lookahead(NamedTuple):
 
 def nothing_located(threads: int) -> Lookahead:
     """The beginning of a run."""
-    return Lookahead(idle_searches(threads), np.empty((threads, MOST_LOCATED + 1, 2), np.int64))
+    located = rows_apart(threads, 2 * (MOST_LOCATED + 1))
+    return Lookahead(idle_searches(threads), located.reshape(threads, -1, 2))
 
 
 @cached_njit(forceinline=True)

@@ -42,3 +42,15 @@ def test_atomics_one_by_one():
 def test_only_integers_are_atomic():
     with pytest.raises(numba.TypingError, match="integer arrays"):
         _single(np.zeros(2))
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.int64])
+@pytest.mark.parametrize(("n", "columns"), [(1, 1), (3, 40), (2, 33), (5, 16)])
+def test_no_two_rows_are_in_one_pair_of_cache_lines(n, columns, dtype):
+    rows = atomics.rows_apart(n, columns, dtype)
+    assert rows.dtype == dtype
+    assert len(rows) == n
+    assert 0 <= rows.shape[1] - columns < 128 // rows.itemsize
+    assert rows.flags.c_contiguous
+    assert not rows.any()
+    assert rows.ctypes.data % 128 == rows.strides[0] % 128 == 0

@@ -5,13 +5,17 @@ import signal
 import threading
 import time
 
+import numpy as np
 import pytest
 
 from dt3d import threaded2d
 from dt3d._numba.threads import run_threads
+from dt3d.threaded2d.correction import correct
 from dt3d.threaded2d.in_place import star
+from dt3d.threaded2d.mesh import ROOTS
 
 from .families import uniform
+from .runs import inserted
 
 
 def test_an_exception_in_one_thread_stops_the_others(monkeypatch):
@@ -38,6 +42,8 @@ def test_an_exception_in_one_thread_stops_the_others(monkeypatch):
 )
 def test_an_interrupt_stops_all_threads_within_a_second(method):
     threaded2d.Delaunay(uniform(100), method=method)  # compiled before the clock runs
+    store, _ = inserted(uniform(100))
+    correct(store, np.arange(ROOTS, dtype=np.int32))  # and what is seldom needed
     points = uniform(400_000)
     before = threading.active_count()
     sent = []
