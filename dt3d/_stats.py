@@ -27,6 +27,11 @@ class Statistics:
         Sites examined in all face expansions ("search/FE" is this over `face_expansions`).
     exact_decisions : int
         Face expansions that the bounds of floating point left open; 0 with ``robustness="perturb"``.
+    cells_opened : int
+        Cells of all face expansions' boxes, pruned ones included; 0 where the search goes through a tree, and
+        in compiled steps.
+    search_rounds : tuple of int
+        Face expansions whose search through cells took 1, 2, ... rounds.
     tetrahedra_per_iteration : tuple of int
         Tetrahedra found in iteration 1, 2, ... (Figure 3).
     inconsistencies : int
@@ -42,6 +47,8 @@ class Statistics:
     face_expansions: int
     sites_searched: int
     exact_decisions: int
+    cells_opened: int
+    search_rounds: tuple[int, ...]
     tetrahedra_per_iteration: tuple[int, ...]
     inconsistencies: int
     seconds: dict[str, float]

@@ -5,18 +5,20 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
 import scanvec as sv
 
+from ._extrapolation_options import ExtrapolationOptions, check_names, chosen_preset, search_options
 from ._input import check_points, check_seed, exactly_scaled, word_of
 from ._options import Method, Robustness, check_space_options
 from ._results import Names
 from ._stats import InsertionStatistics, Progress, Statistics
 from ._triangulation import InSpace, Part, Whole
+from .extrapolation import Outcome
 from .extrapolation import triangulate as extrapolate
 from .subset import Subset
 
@@ -37,7 +39,9 @@ class Delaunay(Whole[Subset], InSpace):
                                               from 2,000 sites that fill space evenly; else vectors
     ``Delaunay(points, machine=S)``           extrapolation in vectors, exact search; a ledger of its steps
     ``Delaunay(points, machine=S,             the paper: Teng, Sullivan, Beichl and Puppo (1993), with their
-    robustness="perturb")``                   random perturbation and consistency check
+    preset="teng1993")``                      boxes, random perturbation and consistency check
+    ``Delaunay(points, machine=S,             the same with cells that are pruned, and a tree where sites are
+    robustness="perturb")``                   uneven
     ``threaded2d.Delaunay(points2d)``         in the plane: threads that change one mesh in place
     ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
     method="batch", order="random")``         methods have names, too
@@ -78,6 +82,27 @@ class Delaunay(Whole[Subset], InSpace):
     callback : callable, optional
         Called with a `Progress` after every iteration of an extrapolation, or every 100,000 sites inserted.
         An exception that it raises ends the triangulation.
+    preset : "teng1993", optional
+        All that is the paper's, by extrapolation: ``robustness="perturb"``, ``search="boxes"`` and
+        ``cells="uniform"``. Options below that are given beside it hold.
+    search : "caps" or "boxes", optional
+        Section 4.2: which cells a face expansion opens. "boxes", with ``robustness="perturb"`` only: all in
+        the containment box of the circumsphere, as in the paper. "caps", the default: those that the
+        spherical cap above the face meets.
+    cells : "auto" or "uniform", optional
+        "uniform": the cells of a cube, as in the paper. "auto", the default: a tree of boxes where sites do
+        not fill space evenly.
+    sites_per_cell, sites_per_warrant : int, optional
+        Sites of a cell on average, 8 by default (section 7), and the most that a warrant searches, by default
+        as many.
+    preset_limit : int, optional
+        Rounds of a search after which all cells that are left are opened, 8 by default. The paper's preset
+        limit is not published.
+    eta : float, optional
+        Of the perturbation I + eta M (section 5.1), with ``robustness="perturb"``. By default 2^-30 in double
+        and 2^-12 in single precision; the paper's is not published.
+
+    Cells other than the default ones are searched in vectors, on ``scanvec.Device()``, too.
 
     Attributes
     ----------
@@ -98,8 +123,11 @@ class Delaunay(Whole[Subset], InSpace):
     Raises
     ------
     ValueError
-        For input that is not finite, real and of shape (n, 3), and for unknown options; by extrapolation also
+        For input that is not finite, real and of shape (n, 3), and for options that are out of range or do
+        not go together; by extrapolation also
         where coordinates differ by less than 2^-200 of the greatest one.
+    TypeError
+        For an option that there is not.
     DegenerateInputError
         If all sites lie on a plane, a line or a point.
     InconsistencyError
@@ -140,14 +168,20 @@ class Delaunay(Whole[Subset], InSpace):
         robustness: Robustness = "exact",
         machine: sv.Machine | None = None,
         threads: int | None = None,
-        dtype: npt.DTypeLike | None = None,
         seed: int = 0,
         callback: Callable[[Progress], object] | None = None,
+        **options: Unpack[ExtrapolationOptions],
     ) -> None:
         begun = time.perf_counter()
         seed = check_seed(seed)
+        check_names(options)
+        if chosen_preset(options) is not None:
+            robustness = "perturb"
+        dtype = options.get("dtype")
         chosen, working = check_space_options(method, robustness, machine, threads, callback, dtype)
-        self._keep(points=check_points(points), _exact=robustness == "exact")
+        exact = robustness == "exact"
+        search = search_options(options, chosen, exact=exact)
+        self._keep(points=check_points(points), _exact=exact)
 
         def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
@@ -156,8 +190,16 @@ class Delaunay(Whole[Subset], InSpace):
         if chosen == "insertion":
             self._insert(seed, threads, report, begun)
         else:
-            machine = sv.Device() if machine is None else machine
-            self._extrapolate(machine, robustness == "exact", working, seed, report, begun)
+            outcome = extrapolate(
+                self.points,
+                sv.Device() if machine is None else machine,
+                exact=exact,
+                dtype=working,
+                seed=seed,
+                report=report,
+                options=search,
+            )
+            self._take(outcome, machine, begun)
 
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
@@ -189,22 +231,14 @@ class Delaunay(Whole[Subset], InSpace):
             ),
         )
 
-    def _extrapolate(
-        self,
-        machine: sv.Machine,
-        exact: bool,
-        working: np.dtype,
-        seed: int,
-        report: Callable[[int, int, int], None],
-        begun: float,
-    ) -> None:
-        outcome = extrapolate(self.points, machine, exact=exact, dtype=working, seed=seed, report=report)
+    def _take(self, outcome: Outcome, machine: sv.Machine | None, begun: float) -> None:
+        ledger = None if machine is None else machine.ledger
         self._keep(
             simplices=outcome.simplices,
             neighbors=outcome.neighbors,
             iteration=outcome.iteration,
             duplicates=outcome.duplicates,
-            stats=outcome.statistics(machine.ledger, time.perf_counter() - begun),
+            stats=outcome.statistics(ledger, time.perf_counter() - begun),
         )
 
     @staticmethod

@@ -24,7 +24,8 @@ def main(argv: list[str] | None = None) -> None:
     options = parser.parse_args(argv)
 
     points = np.random.default_rng(0).random((options.sites, 3))
-    tri = dt3d.Delaunay(points, method="extrapolation")
+    # as Teng et al. 1993 have it: QR decomposition, random perturbation, check of consistency
+    tri = dt3d.Delaunay(points, preset="teng1993")
 
     a, b, c, d = tri.points[tri.simplices[0]]
     volume = np.linalg.det([b - a, c - a, d - a]) / 6
@@ -35,6 +36,8 @@ def main(argv: list[str] | None = None) -> None:
     print(f"{stats.iterations} iterations found {' + '.join(map(str, stats.tetrahedra_per_iteration))}")
     print(f"{stats.face_expansions / len(tri.simplices):.2f} face expansions a tetrahedron")
     print(f"{stats.sites_searched / stats.face_expansions:.1f} sites searched a face expansion")
+    print(f"{stats.cells_opened / stats.face_expansions:.1f} cells opened a face expansion")
+    print(f"{stats.inconsistencies} inconsistencies")
 
     if options.write is not None:
         if options.write.suffix in FORMATS:

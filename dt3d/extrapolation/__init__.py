@@ -8,6 +8,7 @@ from .expansion import Perturbed
 from .loop import extrapolate
 from .outcome import Outcome
 from .perturbation import normalise, perturb
+from .search_options import SearchOptions
 from .triangulation import triangulate
 
-__all__ = ["Outcome", "Perturbed", "extrapolate", "normalise", "perturb", "triangulate"]
+__all__ = ["Outcome", "Perturbed", "SearchOptions", "extrapolate", "normalise", "perturb", "triangulate"]

@@ -108,14 +108,29 @@ def contains(outer: Box[Array], inner: Box[Array]) -> Array:
     return within | (inner.x1 < inner.x0)
 
 
-def extend(dead: Box[Array], target: Box[Array], steps: Array) -> Box[Array]:
-    """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions."""
+def intersection(a: Box[Array], b: Box[Array]) -> Box[Array]:
+    """The cells of both."""
+    return Box(
+        jnp.maximum(a.x0, b.x0), jnp.minimum(a.x1, b.x1),
+        jnp.maximum(a.y0, b.y0), jnp.minimum(a.y1, b.y1),
+        jnp.maximum(a.z0, b.z0), jnp.minimum(a.z1, b.z1),
+    )  # fmt: skip
+
+
+def extend(dead: Box[Array], target: Box[Array], steps: Array, closing: Array | None = None) -> Box[Array]:
+    """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions.
+
+    In a direction in which no more than ``closing`` cells are missing it is grown by all of them.
+    """
+
+    def most(gap: Array) -> Array:
+        return steps if closing is None else jnp.where(gap <= closing, jnp.maximum(closing, steps), steps)
 
     def low(d: Array, t: Array) -> Array:
-        return jnp.maximum(jnp.minimum(d, t), d - steps)
+        return jnp.maximum(jnp.minimum(d, t), d - most(d - t))
 
     def high(d: Array, t: Array) -> Array:
-        return jnp.minimum(jnp.maximum(d, t), d + steps)
+        return jnp.minimum(jnp.maximum(d, t), d + most(t - d))
 
     return Box(
         low(dead.x0, target.x0), high(dead.x1, target.x1),

@@ -19,9 +19,9 @@ import scanvec as sv
 
 from .boxes import Grid, HostGrid, cell_coordinates, cell_of
 from .points import Point
+from .search_options import DEFAULT_SEARCH, SearchOptions
 from .tree.boxes import Tree, build
 
-SITES_PER_CELL = 8  # the paper's average (section 7)
 # Sites are even if the cells that have any hold at most so many times that on average.
 EVENNESS = 2.0
 BITS_PER_WORD = 21  # of a coordinate in a Morton code, three of which fill a word
@@ -48,11 +48,14 @@ class Buckets:
         The index of each site in the order it came.
     cells : Cells or None
         None where the sites are not even.
+    options : SearchOptions
+        How the cells are searched.
     """
 
     sites: Point[sv.Vector]
     origin: sv.Vector
     cells: Cells | None
+    options: SearchOptions = DEFAULT_SEARCH
 
     @property
     def machine(self) -> sv.Machine:
@@ -65,23 +68,27 @@ class Buckets:
         return build(self.sites)
 
 
-def bucket(sites: Point[sv.Vector]) -> Buckets:
+def bucket(sites: Point[sv.Vector], options: SearchOptions = DEFAULT_SEARCH) -> Buckets:
     """Order sites along a Morton curve: of the cells that hold them, where these are evenly filled."""
     machine, n = sites.x.machine, len(sites.x)
     low = [float(sv.reduce(v, sv.MIN)) for v in sites]
     high = [float(sv.reduce(v, sv.MAX)) for v in sites]
-    grid = cubic_grid(low, high, n / SITES_PER_CELL, sites.x.dtype)
+    per_cell = options.sites_per_cell
+    if options.uniform_cells:
+        grid = cube_of_cells(low, high, n / per_cell, sites.x.dtype)
+    else:
+        grid = cubic_grid(low, high, n / per_cell, sites.x.dtype)
     cell = machine.map(cell_of, sites, grid)
     counts = machine.full(int(grid.nx) * int(grid.ny) * int(grid.nz), 0, np.int32)
     counts = sv.send(machine.full(n, 1, np.int32), cell, sv.ADD, into=counts)
     occupied = int(sv.reduce(counts > 0, sv.ADD))
-    if n > EVENNESS * SITES_PER_CELL * occupied:
-        return Buckets(*_along_curve(sites, low, high), None)
+    if not options.uniform_cells and n > EVENNESS * per_cell * occupied:
+        return Buckets(*_along_curve(sites, low, high), None, options)
     code = machine.map(_code_of_cell, sites, grid)
     _, (ordered, origin, cell) = sv.sort(code, (sites, machine.iota(n), cell))
     starts = machine.full(len(counts), n, np.int32)
     starts = sv.send(machine.iota(n), cell, sv.MIN, into=starts)
-    return Buckets(ordered, origin, Cells(grid, starts, counts))
+    return Buckets(ordered, origin, Cells(grid, starts, counts), options)
 
 
 def _along_curve(
@@ -145,7 +152,6 @@ def morton_code(i: Array, j: Array, k: Array) -> Array:
 
 def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: npt.DTypeLike) -> HostGrid:
     """Cubic cells over the box from low to high, about ``wanted`` of them."""
-    number = np.float32 if np.dtype(dtype) == np.float32 else np.float64
     extents = np.maximum(np.subtract(high, low), 0)
     # bisect for the side: the number of cells falls with it, in steps
     small, large = extents.max() / 2**20, max(extents.max(), np.finfo(np.float32).tiny)
@@ -159,6 +165,23 @@ def cubic_grid(low: list[float], high: list[float], wanted: float, dtype: npt.DT
     fine, coarse = _divisions(extents, small), _divisions(extents, large)
     counts = fine if np.prod(fine) * np.prod(coarse) < wanted**2 else coarse
     side = max((extents / counts).max(), np.finfo(np.float32).tiny)
+    return _grid(low, high, side, counts, dtype)
+
+
+def cube_of_cells(low: list[float], high: list[float], wanted: float, dtype: npt.DTypeLike) -> HostGrid:
+    """The least cube over the box from low to high, divided alike along all axes: the paper's unit cube.
+
+    As many cells along an axis as come nearest to the third root of ``wanted``.
+    """
+    extent = max(float(np.max(np.subtract(high, low))), float(np.finfo(np.float32).tiny))
+    along = max(round(wanted ** (1 / 3)), 1)
+    return _grid(low, [v + extent for v in low], extent / along, np.full(3, along), dtype)
+
+
+def _grid(
+    low: list[float], high: list[float], side: float, counts: np.ndarray, dtype: npt.DTypeLike
+) -> HostGrid:
+    number = np.float32 if np.dtype(dtype) == np.float32 else np.float64
     relative = 1e-3 if number is np.float32 else 1e-6
     greatest = float(np.abs([low, high]).max())
     margin = relative * side + 4 * float(np.finfo(number).eps) * greatest

@@ -7,9 +7,10 @@ compared as they come. `exact/expansion.py` has the form for sites as they are.
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple, Protocol, TypeVar
+from typing import Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 import scanvec as sv
@@ -20,7 +21,7 @@ from .buckets import Buckets
 from .caps import Plane, cap_box
 from .faces import Face, both_sides
 from .gift_wrapping import squared_distance_to_box
-from .outcome import Counts
+from .outcome import Counts, counted
 from .points import Point, T, add, bounding_box, dot, epsilon, norm, sub, total
 from .search import search
 from .warrants import Q, SearchResult, SearchSpec
@@ -83,7 +84,10 @@ def search_faces(
     """The best sites of open faces, which have the given corners, three records of coordinates."""
     first = (corners[0], corners[0])
     if buckets.cells is not None:
-        first = buckets.machine.map(first_box, queries, *corners, buckets.cells.grid.side)
+        # "newbox := containment_box({a, b, c, o_circ})"
+        side = buckets.cells.grid.side
+        most = side.dtype.type(np.inf) if buckets.options.whole_boxes else side
+        first = buckets.machine.map(first_box, queries, *corners, most)
     return search(buckets, queries, first, spec)
 
 
@@ -98,7 +102,7 @@ def trial_distance(centre: Point[Array], k: Array, unit: Array | float) -> Array
     return jnp.where(k < TRIALS, distance / unit, jnp.inf)
 
 
-PerturbedFace = OpenFace[signed_distance.Frame, Array]
+PerturbedFace: TypeAlias = OpenFace[signed_distance.Frame, Array]
 
 
 def open_face(face: Face[Array], a: Point[Array], b: Point[Array], c: Point[Array]) -> PerturbedFace:
@@ -134,14 +138,16 @@ def _trial_bound(query: PerturbedFace, k: Array) -> Array:
     return trial_distance(query.frame.centre, k, 1)
 
 
-PERTURBED = SearchSpec(_score, vertices, _region, _may_contain, _trial_bound)
+PERTURBED: SearchSpec[PerturbedFace] = SearchSpec(_score, vertices, _region, _may_contain, _trial_bound)
 
 
-def expand_perturbed(buckets: Buckets, faces: Face[sv.Vector]) -> SearchResult:
+def expand_perturbed(
+    buckets: Buckets, faces: Face[sv.Vector], spec: SearchSpec[PerturbedFace] = PERTURBED
+) -> SearchResult:
     """The fourth vertex of each face, or `NO_SITE` where no site is on its positive side."""
     corners = [sv.get(buckets.sites, v) for v in faces]
     queries = buckets.machine.map(open_face, faces, *corners)
-    return search_faces(buckets, queries, corners, PERTURBED)
+    return search_faces(buckets, queries, corners, spec)
 
 
 class Perturbed:
@@ -149,8 +155,8 @@ class Perturbed:
 
     exact = False
 
-    def __init__(self, buckets: Buckets) -> None:
-        self._buckets = buckets
+    def __init__(self, buckets: Buckets, spec: SearchSpec[PerturbedFace] = PERTURBED) -> None:
+        self._buckets, self._spec = buckets, spec
 
     def begin(self, facets: Face[sv.Vector]) -> tuple[Face[sv.Vector], sv.Vector, Counts]:
         """The first open faces and their fourth vertices."""
@@ -159,5 +165,5 @@ class Perturbed:
 
     def expand(self, faces: Face[sv.Vector]) -> tuple[sv.Vector, Counts]:
         """The fourth vertex of each face, or `NO_SITE`."""
-        result = expand_perturbed(self._buckets, faces)
-        return result.best.site, Counts(len(faces.a), result.sites_searched, 0)
+        result = expand_perturbed(self._buckets, faces, self._spec)
+        return result.best.site, counted(len(faces.a), result)

@@ -33,6 +33,7 @@ from .faces import Face, Tetrahedron
 from .gift_wrapping import first_facets
 from .outcome import Outcome, Report
 from .points import Point
+from .search_options import DEFAULT_SEARCH, SearchOptions
 from .warrants import NO_SITE
 
 
@@ -41,6 +42,7 @@ def extrapolate(
     sites: np.ndarray,
     mode: Callable[[Buckets], Expander],
     report: Report | None = None,
+    options: SearchOptions = DEFAULT_SEARCH,
 ) -> Outcome:
     """Triangulate distinct sites (n, 3).
 
@@ -56,6 +58,8 @@ def extrapolate(
         Makes what expands the faces of buckets.
     report : callable, optional
         Called after every iteration.
+    options : SearchOptions
+        Of cells and their search.
 
     Raises
     ------
@@ -66,7 +70,7 @@ def extrapolate(
     """
     clock = Clock(machine)
     with clock.phase("buckets"):
-        buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)))
+        buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)), options)
     with clock.phase("first facets"):
         # "for each vertex find the first Delaunay facet by gift wrapping"
         facets = initial_facets(buckets)

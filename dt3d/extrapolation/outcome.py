@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 import scanvec as sv
 
 from .._stats import Statistics
+from .warrants import SearchResult
 
 # Called with the iteration, the open faces and the tetrahedra so far, after every iteration.
 Report: TypeAlias = Callable[[int, int, int], None]
@@ -19,12 +21,19 @@ Report: TypeAlias = Callable[[int, int, int], None]
 class Counts(NamedTuple):
     """What an expansion did."""
 
-    face_expansions: int
-    sites_searched: int
-    exact_decisions: int
+    face_expansions: int = 0
+    sites_searched: int = 0
+    exact_decisions: int = 0
+    cells_opened: int = 0
+    search_rounds: tuple[int, ...] = ()  # how many faces took 1, 2, ... rounds
 
 
-NOTHING_DONE = Counts(0, 0, 0)
+NOTHING_DONE = Counts()
+
+
+def counted(faces: int, result: SearchResult, exact_decisions: int = 0) -> Counts:
+    """What a search for so many faces did."""
+    return Counts(faces, result.sites_searched, exact_decisions, result.cells_opened, result.rounds)
 
 
 @dataclass
@@ -63,4 +72,11 @@ class Outcome:
 
 def added(a: Counts, b: Counts) -> Counts:
     """The counts of two expansions together."""
-    return Counts(*(x + y for x, y in zip(a, b, strict=True)))
+    rounds = tuple(x + y for x, y in zip_longest(a.search_rounds, b.search_rounds, fillvalue=0))
+    return Counts(
+        a.face_expansions + b.face_expansions,
+        a.sites_searched + b.sites_searched,
+        a.exact_decisions + b.exact_decisions,
+        a.cells_opened + b.cells_opened,
+        rounds,
+    )

@@ -25,11 +25,13 @@ def normalise(points: np.ndarray) -> np.ndarray:
     return scaled
 
 
-def perturb(sites: np.ndarray, dtype: np.dtype, seed: int) -> np.ndarray:
-    """(I + eta M) applied to sites (n, 3), in the working precision."""
+def perturb(sites: np.ndarray, dtype: np.dtype, seed: int, eta: float | None = None) -> np.ndarray:
+    """(I + eta M) applied to sites (n, 3), in the working precision; by default its `MAGNITUDE`."""
+    if eta is None:
+        eta = MAGNITUDE[np.dtype(dtype)]
     m = np.random.default_rng(seed).random((3, 3))
     # written out, so that equal sites give equal results wherever they stand in the array
     x, y, z = sites.T
     moved = np.column_stack([row[0] * x + row[1] * y + row[2] * z for row in m])
-    perturbed: np.ndarray = (sites + MAGNITUDE[np.dtype(dtype)] * moved).astype(dtype)
+    perturbed: np.ndarray = (sites + eta * moved).astype(dtype)
     return perturbed

@@ -23,10 +23,12 @@ from .consistency import count_faults
 from .exact.canonical import in_canonical_order
 from .exact.expander import Exact
 from .exact.sites import check_magnitudes
-from .expansion import Perturbed
+from .expansion import PERTURBED, Perturbed
 from .loop import extrapolate
 from .outcome import Outcome, Report
 from .perturbation import normalise, perturb
+from .search_options import DEFAULT_SEARCH, SearchOptions
+from .whole_boxes import WHOLE_BOXES
 
 CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
 BYTES_PER_SITE = 1500  # at least, as measured
@@ -41,6 +43,7 @@ def triangulate(
     dtype: np.dtype,
     seed: int,
     report: Report | None = None,
+    options: SearchOptions = DEFAULT_SEARCH,
 ) -> Outcome:
     """Triangulate checked points (n, 3); vertices of the result are rows of these.
 
@@ -58,6 +61,8 @@ def triangulate(
         Of the perturbation.
     report : callable, optional
         Called as ``report(iteration, open_faces, tetrahedra)`` after every iteration.
+    options : SearchOptions
+        Of cells and their search. Other than the default ones go through vectors.
 
     Raises
     ------
@@ -74,11 +79,12 @@ def triangulate(
     """
     if exact:
         used, duplicates = first_copies(points)
-        out = _extrapolate_exactly(exactly_scaled(points[used]), machine, report)
+        out = _extrapolate_exactly(exactly_scaled(points[used]), machine, report, options)
     else:
-        sites, used, duplicates = _perturbed(points, dtype, seed)
+        sites, used, duplicates = _perturbed(points, dtype, seed, options.eta)
         _require_memory(len(sites))
-        out = extrapolate(machine, sites, Perturbed, report)
+        mode = partial(Perturbed, spec=WHOLE_BOXES if options.whole_boxes else PERTURBED)
+        out = extrapolate(machine, sites, mode, report, options)
     out.simplices = used[out.simplices].astype(np.int32)
     out.duplicates = duplicates
     if not exact:
@@ -93,13 +99,15 @@ def triangulate(
     return out
 
 
-def _extrapolate_exactly(sites: np.ndarray, machine: sv.Machine, report: Report | None) -> Outcome:
+def _extrapolate_exactly(
+    sites: np.ndarray, machine: sv.Machine, report: Report | None, options: SearchOptions
+) -> Outcome:
     _check_span(sites)
     _require_memory(len(sites))
     check_magnitudes(sites)
-    if isinstance(machine, sv.Device) and compiled.serves(sites):
+    if isinstance(machine, sv.Device) and options == DEFAULT_SEARCH and compiled.serves(sites):
         return in_canonical_order(compiled.extrapolate(machine, sites, report))
-    return in_canonical_order(extrapolate(machine, sites, partial(Exact, sites=sites), report))
+    return in_canonical_order(extrapolate(machine, sites, partial(Exact, sites=sites), report, options))
 
 
 def _require_memory(n: int) -> None:
@@ -114,14 +122,16 @@ def _check_span(sites: np.ndarray) -> None:
         first_tetrahedron(sites, 0)
 
 
-def _perturbed(points: np.ndarray, dtype: np.dtype, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _perturbed(
+    points: np.ndarray, dtype: np.dtype, seed: int, eta: float | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Distinct sites, normalised and perturbed; their indices among the points; and the duplicates."""
     used, duplicates = first_copies(points)
     used.sort()  # buckets have an order of their own; this one shows in the rows of the result
     distinct = normalise(points[used])
     # sixteen times what rounding the coordinates can do to a plane
     check_volume(distinct, 16 * float(np.finfo(dtype).eps))
-    sites = perturb(distinct, dtype, seed)
+    sites = perturb(distinct, dtype, seed, eta)
     kept, merged = first_copies(sites)
     kept.sort()
     if len(merged):

@@ -21,10 +21,9 @@ from jax import Array
 import scanvec as sv
 
 from .boxes import Box, Grid
-from .buckets import SITES_PER_CELL, Buckets
+from .buckets import Buckets
 from .points import Point, T
 
-SITES_PER_WARRANT = SITES_PER_CELL
 NO_SITE = -1
 
 Q = TypeVar("Q")  # the record of a query
@@ -47,6 +46,9 @@ class SearchSpec(Generic[Q]):
         never no.
     trial_bound : (query, k) -> float
         The k-th bound to try, from 0; from some k on inf. What is found does not depend on it.
+    closing : int
+        Once there is a candidate, a box grows at once by all cells that it lacks in a direction, if these are
+        no more than so many.
     """
 
     score: Callable[[Q, Point[Array], Array], tuple[Array, Array]]
@@ -54,6 +56,7 @@ class SearchSpec(Generic[Q]):
     region: Callable[[Q, Array, Grid[Array]], Box[Array]]
     may_contain: Callable[[Q, Array, Point[Array], Point[Array]], Array]
     trial_bound: Callable[[Q, Array], Array]
+    closing: int = 0
 
 
 class Best(NamedTuple, Generic[T]):
@@ -70,6 +73,8 @@ class SearchResult(NamedTuple):
 
     best: Best[sv.Vector]  # vectors of length m
     sites_searched: int
+    cells_opened: int = 0  # by a search through cells
+    rounds: tuple[int, ...] = ()  # how many queries took 1, 2, ... rounds of it
 
 
 def least(a: Best[Array], b: Best[Array]) -> Best[Array]:
@@ -98,17 +103,24 @@ def better_of(a: Best[sv.Vector], b: Best[sv.Vector]) -> Best[sv.Vector]:
     return best
 
 
-def execute(
-    buckets: Buckets, query: object, start: sv.Vector, length: sv.Vector, spec: SearchSpec[Q]
-) -> Best[sv.Vector]:
-    """The best of each warrant's sites, ``length`` of them from ``start``, at most `SITES_PER_WARRANT`.
+class Ranges(NamedTuple):
+    """Consecutive sites: one range for each warrant."""
+
+    start: sv.Vector  # int32 (w,)
+    length: sv.Vector  # int32 (w,)
+    most: int  # at least every length
+
+
+def execute(buckets: Buckets, query: object, sites: Ranges, spec: SearchSpec[Q]) -> Best[sv.Vector]:
+    """The best of each warrant's sites.
 
     Of Algorithm Face Expansion: "for each warrant w: S := the range of its site indices; w.min_sd :=
     min{SD(p) | p in w.S and p in Hp}".
     """
+    start, length, most = sites
     machine = start.machine
     best = nothing_found(machine, len(start), buckets.sites.x.dtype)
-    for k in range(SITES_PER_WARRANT):
+    for k in range(most):
         site = start + k
         active = length > k
         point = sv.get(buckets.sites, site, where=active, otherwise=0)

@@ -17,6 +17,7 @@ from ..boxes import Box, Grid, HostGrid
 from ..buckets import cubic_grid
 from ..exact.filtered_distance import Frame
 from ..points import add, norm, scale
+from ..search_options import SITES_PER_CELL
 
 CELLS = 3  # of a window along an axis
 SITES_PER_FINE_CELL = 1.33  # so 36 a window
@@ -52,9 +53,9 @@ def grid_of(sites: np.ndarray, sites_per_cell: float) -> HostGrid:
 
 def are_even(sites: np.ndarray) -> bool:
     """Whether sites (n, 3) leave few cells empty, by the measure of `buckets.bucket`."""
-    cell = cells_of(sites, grid_of(sites, buckets.SITES_PER_CELL))
+    cell = cells_of(sites, grid_of(sites, SITES_PER_CELL))
     occupied = int(np.count_nonzero(np.bincount(cell)))
-    return len(sites) <= buckets.EVENNESS * buckets.SITES_PER_CELL * occupied
+    return len(sites) <= buckets.EVENNESS * SITES_PER_CELL * occupied
 
 
 def windows_of(sites: np.ndarray, grid: HostGrid, capacity: int) -> Windows:

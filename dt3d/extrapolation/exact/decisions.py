@@ -18,7 +18,7 @@ import scanvec as sv
 from ..._errors import QuadraticSearchWarning
 from ..expansion import OpenFace, search_faces
 from ..faces import Face
-from ..outcome import Counts
+from ..outcome import Counts, added, counted
 from ..points import Point, T
 from ..tree.boxes import FANOUT, Request, descend, entry_test, unfold
 from ..tree.search import Bounded
@@ -48,7 +48,8 @@ def expand_exactly(exact: ExactSites, faces: Face[sv.Vector]) -> tuple[Expansion
     machine, m = buckets.machine, len(faces.a)
     corners = [sv.get(buckets.sites, v) for v in faces]
     queries = machine.map(open_face, faces, *corners, exact.lattice)
-    best, searched = search_faces(buckets, queries, corners, FILTERED)
+    result = search_faces(buckets, queries, corners, FILTERED)
+    best, more = result.best, 0
     site, low, undecided = machine.map(_conclude, best)
     violator = machine.full(m, NO_SITE, np.int32)
     index = sv.pack_index(undecided)
@@ -56,8 +57,8 @@ def expand_exactly(exact: ExactSites, faces: Face[sv.Vector]) -> tuple[Expansion
         few, bound = sv.get((queries, best.high), index)
         winner, violating, more = _decide(exact, Bounded(few, bound))
         site, violator = sv.scatter((winner, violating), index, into=(site, violator))
-        searched += more
-    return Expansion(site, low, violator), Counts(m, searched, len(index))
+    counts = added(counted(m, result, len(index)), Counts(sites_searched=more))
+    return Expansion(site, low, violator), counts
 
 
 def _conclude(best: Best[Array]) -> tuple[Array, Array, Array]:

@@ -21,7 +21,17 @@ import scanvec as sv
 from ..._errors import InternalError
 from ..buckets import Buckets
 from ..points import Point, T
-from ..warrants import LEAST_BOUNDS, Best, Q, SearchResult, SearchSpec, better_of, execute, nothing_found
+from ..warrants import (
+    LEAST_BOUNDS,
+    Best,
+    Q,
+    Ranges,
+    SearchResult,
+    SearchSpec,
+    better_of,
+    execute,
+    nothing_found,
+)
 from .boxes import FANOUT, descend, entry_test
 
 # Trials before the search does without a bound, which is the last one; more than any spec has.
@@ -95,7 +105,7 @@ def _search_leaves(
     buckets: Buckets, queries: object, leaf: sv.Vector, spec: SearchSpec[Q]
 ) -> tuple[Best[sv.Vector], int]:
     start, length = leaf.machine.map(_sites_of_leaf, leaf, len(buckets.origin))
-    return execute(buckets, queries, start, length, spec), int(sv.reduce(length, sv.ADD))
+    return execute(buckets, queries, Ranges(start, length, FANOUT), spec), int(sv.reduce(length, sv.ADD))
 
 
 def _sites_of_leaf(leaf: Array, n: Array) -> tuple[Array, Array]:
