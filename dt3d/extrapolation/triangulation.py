@@ -32,7 +32,7 @@ from .whole_boxes import WHOLE_BOXES
 
 CLEARLY_THICK = 1e-6  # an extent, relative to the largest, that rounding cannot make
 BYTES_PER_SITE = 1500  # at least, as measured
-CALLER = 4  # the frames between what warns here and the caller of the public class
+CALLER = 3  # the frames between what warns here and the caller of the public class
 
 
 def triangulate(
