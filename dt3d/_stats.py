@@ -27,11 +27,6 @@ class Statistics:
         Sites examined in all face expansions ("search/FE" is this over `face_expansions`).
     exact_decisions : int
         Face expansions that the bounds of floating point left open; 0 with ``robustness="perturb"``.
-    cells_opened : int
-        Cells of all face expansions' boxes, pruned ones included; 0 where the search goes through a tree, and
-        in compiled steps.
-    search_rounds : tuple of int
-        Face expansions whose search through cells took 1, 2, ... rounds.
     tetrahedra_per_iteration : tuple of int
         Tetrahedra found in iteration 1, 2, ... (Figure 3).
     inconsistencies : int
@@ -41,18 +36,23 @@ class Statistics:
         Wall time by phase, compilation included.
     ledger : scanvec.Ledger or None
         That of a simulated machine.
+    cells_opened : int
+        Cells of all face expansions' boxes, pruned ones included; 0 where the search goes through a tree, and
+        in compiled steps.
+    search_rounds : tuple of int
+        Face expansions whose search through cells took 1, 2, ... rounds.
     """
 
     iterations: int
     face_expansions: int
     sites_searched: int
     exact_decisions: int
-    cells_opened: int
-    search_rounds: tuple[int, ...]
     tetrahedra_per_iteration: tuple[int, ...]
     inconsistencies: int
     seconds: dict[str, float]
     ledger: sv.Ledger | None
+    cells_opened: int = 0
+    search_rounds: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

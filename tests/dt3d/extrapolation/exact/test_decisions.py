@@ -27,8 +27,8 @@ def test_without_exact_decisions_the_result_is_wrong(monkeypatch):
     def guess(exact, queries):
         nobody = MACHINE.full(len(queries.high), NO_SITE, np.int32)
         corners = [sv.get(exact.buckets.sites, v) for v in queries.query.face]
-        best, searched = decisions.search_faces(exact.buckets, queries.query, corners, FILTERED)
-        return best.site, nobody, searched
+        result = decisions.search_faces(exact.buckets, queries.query, corners, FILTERED)
+        return result.best.site, nobody, result.sites_searched
 
     monkeypatch.setattr(decisions, "_decide", guess)
     with pytest.raises(dt3d.InternalError, match="contradict others, which exact decisions exclude"):
