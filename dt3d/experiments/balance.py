@@ -170,7 +170,7 @@ def balance(
         sv.plot.load_balance(machine.ledger.of(*MAIN_LOOP), ax=axes[k + 2])
         axes[k + 2].set_title(f"{name}, the main loop as run")
     axes[0].legend(fontsize=8)
-    console.print(table)
+    table.show(console)
     for name, searched in examined.items():
         console.print(f"{name}: the search itself examined {searched:.1f} sites per expansion.")
     console.print(

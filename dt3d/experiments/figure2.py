@@ -155,7 +155,7 @@ def figure2(
         brute = None if s.brute_force is None else s.brute_force.under(model).seconds
         lines.append(Line(s.sites, s.paper, s.bucketing.under(model).seconds, brute))
         table.add_row(str(s.sites), *("" if x is None else f"{x:.2f}" for x in lines[-1][1:]))
-    console.print(table)
+    table.show(console)
     print_model(console, model)
     crossing = break_even(sizes, model)
     text = "does not lie in this range" if crossing is None else f"is at {crossing:.0f} sites"

@@ -43,7 +43,7 @@ def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int =
     depths = {row.name: row.depth for row in RANDOM}
     table.add_row("depth", *(str(m.depth) for m in found.values()))
     table.add_row("depth, paper", *(str(depths[name]) for name in found))
-    console.print(table)
+    table.show(console)
     least = min(_share(m, MOST_BY_ITERATION) for m in found.values())
     console.print(
         f"By iteration {MOST_BY_ITERATION} at least {100 * least:.1f} % are found; paper: most. The last "

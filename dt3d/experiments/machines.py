@@ -44,7 +44,7 @@ def machines(out: Path, console: Console, *, sites: int = 2000, seed: int = SEED
     )
     for p in ledgers:
         table.add_row(f"{p:,}", *(f"{by[p]:.4g}" for by in seconds.values()))
-    console.print(table)
+    table.show(console)
     conflicts = len(next(iter(ledgers.values())).conflicts)
     steps = next(iter(ledgers.values())).steps
     console.print(

@@ -184,7 +184,7 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
                 f"{m.row.vp_steps / m.row.steps:.0f}",
                 "yes" if all(o.holds for o in found if o.primitive is m.primitive) else "no",
             )
-    console.print(table)
+    table.show(console)
     console.print(
         f"It holds if the steps are those stated, and the elements within the stated bounds, at all of "
         f"{', '.join(f'{n:,}' for n in SIZES)} elements. With {PROCESSORS} processors a step over n elements "

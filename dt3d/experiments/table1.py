@@ -121,9 +121,9 @@ def _print(measured: list[Row], console: Console, seed: int) -> None:
                 row.spread("per_tetrahedron", 3),
                 row.spread("searched", 1),
             )
-    console.print(table)
+    table.show(console)
     if spread.row_count:
-        console.print(spread)
+        spread.show(console)
     console.print(
         f"Inconsistencies: {sum(row.ours.inconsistencies for row in measured)}, in the paper none. "
         f"The paper's random sets are not published; ours have seed {seed}. The default seed is the first "
@@ -150,7 +150,7 @@ def _times(measured: list[Row], console: Console) -> dict[str, float]:
         used = "yes" if row.random else "no"
         diff = f"{100 * off(seconds[name], paper):+.0f} %"
         table.add_row(name, f"{paper:.2f}", f"{seconds[name]:.2f}", diff, used, shipped)
-    console.print(table)
+    table.show(console)
     print_model(console, model)
     console.print(
         "The paper's program opened whole boxes of cells; ours leaves out cells that cannot hold a better "

@@ -109,7 +109,7 @@ def table3(
             f"0 / {by_mode['double']}",
             f"- / {by_mode['exact']}",
         )
-    console.print(table)
+    table.show(console)
     console.print(
         "The paper's double precision met no inconsistency; it has no exact mode. Its random sets are not "
         "published, nor its other sets (torus, spiral, bust, ...). Nor does it say how far it moves sites. "
