@@ -1,6 +1,6 @@
 """The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`.
 
-Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation, or one of `dt3d experiment all` failed;
+Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation, or one of `experiment all` failed;
 2 bad words or input, or a file that cannot be read or written, with one line that says what is wrong; 70 a
 fault of dt3d itself; 130 Ctrl-C; 141 the reader of the output has closed it.
 """
