@@ -136,8 +136,8 @@ def _print(measured: list[Row], console: Console, seed: int, most_sites: int) ->
         f"The paper's random sets are not published; ours have seed {seed}. The default seed is the first "
         "whose sets have within 1 % of the paper's tetrahedra at every size; the second table has seeds that "
         "were not chosen. Nor are its other sets published: of those with a * ours only has as many sites "
-        "and a shape that the name suggests, so that its numbers need not agree; of those with - not even the "
-        "kind is known."
+        "and a shape that the name suggests, so that its numbers need not agree; of those with - not even "
+        "the kind is known."
     )
 
 

@@ -136,8 +136,8 @@ def _print(
     table.show(console)
     console.print(
         "The paper's double precision met no inconsistency; it has no exact mode. Its sets are not "
-        "published: of those with a * ours only has as many sites and a shape that the name suggests, of those "
-        "with - not even the kind is known. Nor does it say how far it moves sites. "
+        "published: of those with a * ours only has as many sites and a shape that the name suggests, of "
+        "those with - not even the kind is known. Nor does it say how far it moves sites. "
         f"Moved by {_power(np.float64)} as in double precision, where coordinates round to 2^-24, ties stay "
         f"undecided; {_power(np.float32)}, dt3d's choice for single precision, is the larger perturbation. "
         "Tetrahedra are those of single precision."
