@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int = SEED) -> dict[str, Measured]:
-    """The paper's Figure 3: tetrahedra by the iteration that finds them; most are found by the fourth.
+    """Teng et al. 1993, Figure 3: tetrahedra of random sets by the iteration that finds them.
 
     Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv`` and
     ``figure3.png`` into ``out``.

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 PROCESSORS = 32  # nodes of the paper's CM-5
+CM2_PROCESSORS = 16384  # of its CM-2
 
 
 @dataclass(frozen=True)
