@@ -45,4 +45,4 @@ def publish(
 def _text(value: object) -> str:
     if value is None:
         return ""
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return f"{value:#.3g}".removesuffix(".") if isinstance(value, float) else str(value)
