@@ -33,8 +33,8 @@ def crater(
     """Kohout et al. 2004, Figure 13: Crater Lake, speed-ups of batch and circum-circle, and in relief.
 
     PyVista renders the relief; without it the picture is one from above, and a line says so. The
-    triangles are those of the circum-circle method by four threads, which begin with slabs and take sites from
-    each other.
+    triangles are those of the circum-circle method by four threads, which begin with slabs and take sites
+    from each other.
     """
     sites = crater_lake()
     if points < len(sites):
@@ -52,7 +52,7 @@ def crater(
             console.print(f"{error}. The picture is one seen from above.", markup=False)
             from_above(axes, tri, sites)
         axes.set_title(
-            f"Crater Lake, {len(sites):,} points, heights times {EXAGGERATION:g}; colour: the triangle's thread"
+            f"Crater Lake, {len(sites):,} points, heights times {EXAGGERATION:g}; colours: threads"
         )
 
     note = f"{len(sites):,} points of the terrain. " + NOTE.format(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from ..._optional import optional
 from ...threaded2d.picture import to_pyvista
 
 if TYPE_CHECKING:
-    import pyvista
     from matplotlib.axes import Axes
 
     from ..._triangulation import InPlane
@@ -84,7 +83,7 @@ def paint(
 
 
 @contextmanager
-def _off_screen(width: int, height: int) -> Iterator[pyvista.Plotter]:
+def _off_screen(width: int, height: int) -> Iterator[Any]:  # PyVista's types are wrong where it decorates
     """A plotter without a window, about whose lack VTK does not complain."""
     pv = optional("pyvista")
     quiet = pv.vtk_verbosity("off") if hasattr(pv, "vtk_verbosity") else nullcontext()
