@@ -56,7 +56,7 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-arc": _kohout("arc", "Kohout et al. 2004, Figures 9 to 11: points on an arc."),
     "kohout-subdivision": _kohout("subdivision", "Kohout et al. 2004, Figure 12, up to 16 elements."),
     "kohout-table4": _kohout("table4", "Kohout et al. 2004, Table 4: the methods compared."),
-    "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: the Crater Lake terrain."),
+    "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
 }
 
 __all__ = [

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 def figure3(out: Path, console: Console, *, most_sites: int = 16000, seed: int = SEED) -> dict[str, Measured]:
     """Teng et al. 1993, Figure 3: tetrahedra of random sets by the iteration that finds them.
 
-    Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv`` and
-    ``figure3.png`` into ``out``.
+    Its values are in a picture only; the depths are those of Table 1. Writes ``figure3.csv``,
+    ``figure3.png`` and ``figure3.pdf`` into ``out``.
     """
     out.mkdir(parents=True, exist_ok=True)
     found: dict[str, Measured] = {}

@@ -180,6 +180,6 @@ def _draw(outcomes: dict[str, dict[str, Outcome]], others: dict[str, list[Outcom
     ax.set_ylim(len(names) - 0.5, -0.5)
     for k in range(1, len(names)):
         ax.axhline(k - 0.5, color="0.9", lw=0.6)
-    ax.set(xlabel="inconsistencies (a number; too many: given up)", ylabel="set")
+    ax.set(xlabel="number of inconsistencies; too many: given up", ylabel="set")
     figure.legend(loc="outside upper center", ncols=3)
     return figure

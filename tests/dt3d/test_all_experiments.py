@@ -7,7 +7,8 @@ from types import ModuleType
 import pytest
 from rich.console import Console
 
-from dt3d import cli
+from dt3d import _output, cli
+from dt3d._output import style
 from dt3d.cli.all_experiments import QUICK, quick_options, run_all
 from dt3d.experiments import EXPERIMENTS
 
@@ -121,7 +122,9 @@ def test_ctrl_c_ends_all(tmp_path, listed, capsys, experiment):
 
 
 @pytest.mark.slow
-def test_every_experiment_runs_quickly_and_leaves_a_table_and_pictures(tmp_path, console):
+def test_every_experiment_runs_quickly_and_leaves_a_table_and_pictures(tmp_path, console, monkeypatch):
+    figures = []
+    monkeypatch.setattr(_output, "style", lambda figure: figures.append(figure) or style(figure))
     ended = run_all(EXPERIMENTS, tmp_path, console, quick=True)
     assert [(e.name, e.error) for e in ended] == [(name, "") for name in EXPERIMENTS]
     for name in EXPERIMENTS:
@@ -129,3 +132,7 @@ def test_every_experiment_runs_quickly_and_leaves_a_table_and_pictures(tmp_path,
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
         assert (tmp_path / f"{name}.pdf").read_bytes().startswith(b"%PDF")
     assert "…" not in console.file.getvalue()
+    assert len(figures) == len(EXPERIMENTS)
+    for axes in (a for figure in figures for a in figure.axes if a.axison):
+        assert axes.get_xlabel()
+        assert axes.get_ylabel() or axes.get_title()
