@@ -24,10 +24,14 @@ def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Sheet
     return Sheet(title, [*texts, *numbers], texts, keep=max(1, len(texts)))
 
 
-def panels(count: int, width: float = 5.0) -> tuple[Figure, list[Axes]]:
-    """A figure, and axes side by side."""
-    figure = new_figure(width * count, 3.8)
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+def panels(count: int, width: float = 4.2) -> tuple[Figure, list[Axes]]:
+    """A figure, and axes of so many inches: two side by side, more in rows of two, so that print shows them."""
+    columns, lines = min(count, 2), -(-count // 2)
+    figure = new_figure(width * columns, 3.8 * lines)
+    axes = list(figure.subplots(lines, columns, squeeze=False).flat)
+    for extra in axes[count:]:
+        extra.remove()
+    return figure, axes[:count]
 
 
 def print_model(console: Console, model: sv.Model) -> None:

@@ -219,5 +219,7 @@ def _draw(lines: list[Line], crossing: float | None) -> Figure:
     if crossing is not None:
         ax.axvline(crossing, color="0.4", linestyle="--", label="break-even, model")
     ax.set(xlabel="sites", ylabel="seconds")
+    ax.set_xticks(n, [str(k) for k in n], rotation=30)
+    ax.minorticks_off()
     ax.legend(fontsize=8)
     return figure

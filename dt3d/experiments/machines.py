@@ -66,7 +66,7 @@ def machines(out: Path, console: Console, *, sites: int = 2000, seed: int = SEED
 
 
 def _draw(seconds: dict[str, dict[int, float]]) -> Figure:
-    figure, axes = panels(2, 6.0)
+    figure, axes = panels(2, 4.5)
     for name, by in seconds.items():
         p = list(by)
         axes[0].plot(p, list(by.values()), "o-", label=name)
@@ -77,5 +77,5 @@ def _draw(seconds: dict[str, dict[int, float]]) -> Figure:
     for ax in axes:
         ax.set_xscale("log", base=2)
         ax.set_yscale("log")
-    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside upper center", ncols=len(seconds) + 1)
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return figure
