@@ -25,7 +25,7 @@ def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Sheet
 
 
 def panels(count: int, width: float = 4.2) -> tuple[Figure, list[Axes]]:
-    """A figure, and axes of so many inches: two side by side, more in rows of two, so that print shows them."""
+    """A figure, and axes of so many inches: at most two side by side, as more would be small in print."""
     columns, lines = min(count, 2), -(-count // 2)
     figure = new_figure(width * columns, 3.8 * lines)
     axes = list(figure.subplots(lines, columns, squeeze=False).flat)

@@ -10,6 +10,7 @@ from rich.console import Console
 import dt3d
 import scanvec as sv
 from dt3d.experiments import EXPERIMENTS, calibration, sets, table2
+from dt3d.experiments._output import panels
 from dt3d.experiments.balance import SCHEMES, Work, shares, work
 from dt3d.experiments.figure2 import break_even, cm2_seconds, exhaustive, figure2, growth, run
 from dt3d.experiments.figure3 import figure3
@@ -130,6 +131,13 @@ def test_table3_on_torus_and_cube(tmp_path, console):
     assert (torus["paper_single"], torus["same"]) == ("27", "of the kind")
     assert (cube["paper_single"], cube["same"]) == (TOO_MANY, "yes")
     assert is_png(tmp_path / "table3.png")
+
+
+@pytest.mark.parametrize(("count", "size"), [(1, (3, 3.8)), (2, (6, 3.8)), (3, (6, 7.6)), (4, (6, 7.6))])
+def test_panels_are_two_in_a_row(count, size):
+    figure, axes = panels(count, 3.0)
+    assert tuple(figure.get_size_inches()) == size
+    assert len(axes) == len(figure.axes) == count
 
 
 def test_shares_by_hand():
