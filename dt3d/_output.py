@@ -107,6 +107,8 @@ def _shrink_legends(axes: Axes) -> None:
     legend = axes.get_legend()
     if legend is not None:
         legend.get_frame().set_linewidth(FRAME)
+        for line in legend.get_lines():
+            line.set_linewidth(min(LINE, line.get_linewidth()))
         for text in legend.get_texts():
             text.set_fontsize(SMALL)
 

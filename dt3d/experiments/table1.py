@@ -245,7 +245,10 @@ def _draw(measured: list[Row], seconds: dict[str, float]) -> Figure:
         axes[3].plot(at, [r.paper.seconds for r in fixed], "s", color="tab:orange", mfc="white")
         axes[3].plot(at, [seconds[r.paper.name] for r in fixed], "o", color="tab:blue", mfc="white")
         for r in fixed:
-            axes[3].annotate(f" {r.paper.name}", (r.paper.sites, r.paper.seconds), fontsize=8, va="center")
+            at_site = (r.paper.sites, r.paper.seconds)
+            axes[3].annotate(
+                r.paper.name, at_site, (0, 6), textcoords="offset points", ha="center", fontsize=8
+            )
     axes[3].set(ylabel=f"seconds on {PROCESSORS} nodes", yscale="log")
     for ax in axes:
         ax.set(xscale="log", xlabel="sites")
