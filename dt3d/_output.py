@@ -12,8 +12,17 @@ from ._optional import optional
 from ._paths import written_aside
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from rich.console import Console
+
+DPI = 200  # of pictures, and of what is rasterized in a PDF
+
+# points, for a figure that is printed at the size it has, or somewhat smaller
+TITLE, LABEL, SMALL = 10.0, 9.0, 8.0
+LINE, MARKER, FRAME = 1.2, 4.0, 0.6
+MOST_VECTORS = 20_000  # marks of one artist; a PDF with more is slow to show
 
 
 def publish(
@@ -23,18 +32,24 @@ def publish(
     header: Sequence[str],
     rows: Iterable[Sequence[object]],
     figure: Figure,
-    dpi: float = 120,
+    dpi: float = DPI,
 ) -> None:
-    """Write ``name``.csv and ``name``.png to the folder ``out``, and say so; OSError if that fails."""
-    table, picture = written(out, name)
+    """Write ``name``.csv, ``name``.png and ``name``.pdf to the folder ``out``, and say so.
+
+    The figure gets the style of `style`. OSError if a file cannot be written.
+    """
+    table, *pictures = written(out, name)
     write_csv(table, header, rows)
-    save_figure(figure, picture, dpi)
-    console.print(f"wrote {table} and {picture}", markup=False)
+    style(figure)
+    for picture in pictures:
+        save_figure(figure, picture, dpi)
+    names = [str(table), *map(str, pictures)]
+    console.print(f"wrote {', '.join(names[:-1])} and {names[-1]}", markup=False, soft_wrap=True)
 
 
-def written(out: Path, name: str) -> tuple[Path, Path]:
-    """The files that `publish` writes: the table and the picture."""
-    return out / f"{name}.csv", out / f"{name}.png"
+def written(out: Path, name: str) -> tuple[Path, Path, Path]:
+    """The files that `publish` writes: the table, and the picture as PNG and as PDF."""
+    return out / f"{name}.csv", out / f"{name}.png", out / f"{name}.pdf"
 
 
 def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
@@ -58,14 +73,70 @@ def new_figure(width: float, height: float, purpose: str = "a picture") -> Figur
     return figure
 
 
+def style(figure: Figure) -> None:
+    """One modest style for print: sizes of letters, widths of lines, no frame above and to the right.
+
+    It is given to a finished figure, as settings of matplotlib would be those of the whole process. What a
+    drawing has chosen itself, such as the size of its markers, stays.
+    """
+    chosen = optional("matplotlib", "a picture").rcParams
+    for axes in figure.axes:
+        axes.title.set_fontsize(TITLE)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.label.set_fontsize(LABEL)
+            axis.set_tick_params(which="major", labelsize=SMALL, width=FRAME)
+        for side, spine in axes.spines.items():
+            spine.set_linewidth(FRAME)
+            if side in ("top", "right"):
+                spine.set_visible(False)
+        for line in axes.lines:
+            if line.get_linewidth() == chosen["lines.linewidth"]:
+                line.set_linewidth(LINE)
+            if line.get_markersize() == chosen["lines.markersize"]:
+                line.set_markersize(MARKER)
+        for artist in (*axes.lines, *axes.collections):
+            if _marks(artist) > MOST_VECTORS:
+                artist.set_rasterized(True)
+        _shrink_legends(axes)
+    for legend in figure.legends:
+        for text in legend.get_texts():
+            text.set_fontsize(SMALL)
+
+
+def _shrink_legends(axes: Axes) -> None:
+    legend = axes.get_legend()
+    if legend is not None:
+        legend.get_frame().set_linewidth(FRAME)
+        for line in legend.get_lines():
+            line.set_linewidth(min(LINE, line.get_linewidth()))
+        for text in legend.get_texts():
+            text.set_fontsize(SMALL)
+
+
+def _marks(artist: Artist) -> int:
+    """The points of a line, or the faces or places of a collection."""
+    for name in ("get_xdata", "get_facecolors", "get_offsets"):
+        if hasattr(artist, name):
+            return len(getattr(artist, name)())
+    return 0
+
+
 def save_figure(figure: Figure, path: Path, dpi: float | None = None) -> None:
     """A matplotlib figure as a picture, by the extension; OSError if it cannot be written.
 
     It is drawn into memory: on a full disk the libraries below would cut a .jpg short without a word, and end
-    a .pdf with an error of zlib's.
+    a .pdf with an error of zlib's. A .pdf has letters that can be searched, and no date: the same figure
+    gives the same file.
     """
     picture = io.BytesIO()
-    figure.savefig(picture, format=path.suffix[1:].lower(), dpi=figure.dpi if dpi is None else dpi)
+    kind = path.suffix[1:].lower()
+    with optional("matplotlib", "a picture").rc_context({"pdf.fonttype": 42}):
+        figure.savefig(
+            picture,
+            format=kind,
+            dpi=figure.dpi if dpi is None else dpi,
+            metadata={"CreationDate": None} if kind == "pdf" else None,
+        )
     with written_aside(path) as aside:
         # a copy, since a view would outlive an error, and then the buffer complains where nobody hears it
         aside.write_bytes(picture.getvalue())

@@ -1,14 +1,14 @@
 """How a command ends: what becomes one line, what keeps its traceback, and the exit status of each.
 
-====== ==================================================================================
+====== ====================================================================================
 0      done
-1      `dt3d verify`: not a Delaunay triangulation
+1      `dt3d verify`: not a Delaunay triangulation; `dt3d experiment all`: one of them failed
 2      bad words or input, a file that cannot be read or written, memory that is not there;
        one line says what
 70     a fault of dt3d, to be reported (EX_SOFTWARE of sysexits.h)
 130    Ctrl-C (128 + SIGINT)
 141    the reader of the output has closed it, as `head` does (128 + SIGPIPE)
-====== ==================================================================================
+====== ====================================================================================
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from rich.console import Console
 from ._errors import InconsistencyError, InternalError
 
 DONE, NOT_DELAUNAY, BAD_INPUT, FAULT, INTERRUPTED, CLOSED = 0, 1, 2, 70, 130, 141
+EXPERIMENT_FAILED = 1
 
 
 class Verdict(SystemExit):

@@ -12,6 +12,7 @@ RUNS = {
     "scan_primitives.py": [([], [])],
     "write_your_own_algorithm.py": [([], [])],
     "cm5_scaling.py": [(["--sites", "60", "--folder", "."], ["cm5_scaling.png"])],
+    "cut_open.py": [(["--sites", "60", "--size", "200", "--write", "new/cut.png"], ["new/cut.png"])],
     "first_triangulation.py": [
         (["60"], []),
         (["60", "--write", "sites.vtu"], ["sites.vtu"]),

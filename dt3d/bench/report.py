@@ -9,11 +9,9 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.markup import escape
-from rich.table import Table
-
 from .. import _output as output
 from .._numba.cores import available_cores
+from .._table import Sheet
 from .rounds import Measured
 
 if TYPE_CHECKING:
@@ -27,13 +25,14 @@ MARKERS = "osD^vP*X"
 
 
 def publish(measured: Sequence[Measured], out: Path, console: Console) -> None:
-    """Print the table, and write ``bench.csv`` and ``bench.png`` to the folder ``out``."""
-    console.print(table(measured))
-    output.publish(console, out, NAME, HEADER, csv_rows(measured), draw(measured), dpi=150)
+    """Print the table, and write ``bench.csv``, ``bench.png`` and ``bench.pdf`` to the folder ``out``."""
+    table(measured).show(console)
+    console.print("right: proved by exact arithmetic; bytes are those above the input")
+    output.publish(console, out, NAME, HEADER, csv_rows(measured), draw(measured))
 
 
-def written(out: Path) -> tuple[Path, Path]:
-    """The files that `publish` writes into a folder: the table and the picture."""
+def written(out: Path) -> tuple[Path, Path, Path]:
+    """The files that `publish` writes into a folder: the table, and the picture as PNG and as PDF."""
     return output.written(out, NAME)
 
 
@@ -62,30 +61,24 @@ def ratio(row: Measured, rows: Sequence[Measured]) -> float | None:
     return row.seconds / first if first and row.seconds else None
 
 
-def table(measured: Sequence[Measured]) -> Table:
+def table(measured: Sequence[Measured]) -> Sheet:
     """Medians, and how they compare with dt3d's."""
-    shown = Table(
-        title=f"Delaunay triangulation in space, dt3d = 1: {machine()}",
-        title_justify="left",
-        caption="right: proved by exact arithmetic; bytes are those above the input",
-        caption_justify="left",
-    )
-    for heading in ("set", "sites", "library"):
-        shown.add_column(heading, justify="right" if heading == "sites" else "left", no_wrap=True)
-    for heading in ("seconds", "ratio", "tetrahedra", "10^6 per s", "bytes/site", "right", "runs"):
-        shown.add_column(heading, justify="right", no_wrap=True)
+    names = ("set", "sites", "library")
+    numbers = ("seconds", "ratio", "tetrahedra", "10^6 per s", "bytes/site", "right", "runs")
+    title = f"Delaunay triangulation in space, dt3d = 1: {machine()}"
+    shown = Sheet(title, [*names, *numbers], {"set", "library"}, keep=len(names))
     for rows in by_set(measured):
-        shown.add_section()
         for row in rows:
             shown.add_row(*_cells(row, rows))
+        shown.add_section()
     return shown
 
 
 def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
-    names = [escape(row.set_name), f"{row.sites:,}", row.label]
+    names = [row.set_name, f"{row.sites:,}", row.label]
     seconds, times = row.seconds, ratio(row, rows)
     if seconds is None:
-        return [*names, escape(row.ended), "", "", "", "", "", "0"]
+        return [*names, row.ended, "", "", "", "", "", "0"]
     return [
         *names,
         f"{seconds:.3g}" if seconds < 100 else f"{seconds:.0f}",
@@ -94,7 +87,7 @@ def _cells(row: Measured, rows: Sequence[Measured]) -> list[str]:
         f"{1e-6 * row.tetrahedra / seconds:.2f}",
         "" if row.memory is None else f"{row.memory / row.sites:,.0f}",
         "" if row.verified is None else "yes" if row.verified else "NO",
-        f"{len(row.runs)}" + (f", {escape(row.ended)}" if row.ended else ""),
+        f"{len(row.runs)}" + (f", {row.ended}" if row.ended else ""),
     ]
 
 

@@ -1,8 +1,8 @@
 """The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`.
 
-Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation; 2 bad words or input, or a file that
-cannot be read or written, with one line that says what is wrong; 70 a fault of dt3d itself; 130 Ctrl-C; 141
-the reader of the output has closed it.
+Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation, or one of `experiment all` failed;
+2 bad words or input, or a file that cannot be read or written, with one line that says what is wrong; 70 a
+fault of dt3d itself; 130 Ctrl-C; 141 the reader of the output has closed it.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ app = cyclopts.App(
     name="dt3d",
     help="Exact 3D Delaunay triangulations, by multithreaded insertion or by the data-parallel algorithm of "
     "Teng et al.\n\n"
-    "Exit status: 0 done; 1 not a Delaunay triangulation (verify); 2 bad words, input or files; "
-    "70 a fault of dt3d; 130 Ctrl-C; 141 the output was closed.",
+    "Exit status: 0 done; 1 not a Delaunay triangulation (verify), or one failed (experiment all); "
+    "2 bad words, input or files; 70 a fault of dt3d; 130 Ctrl-C; 141 the output was closed.",
     version=dt3d.__version__,
     suppress_keyboard_interrupt=False,
 )

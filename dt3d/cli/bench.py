@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -45,7 +44,7 @@ def bench(
     rounds: Rounds = Rounds(),
     out: Path = Path("out"),
 ) -> None:
-    """Compare dt3d with SciPy and whatever else is installed; print a table, write bench.csv and bench.png.
+    """Compare dt3d with SciPy and whatever else is installed; print a table, write bench.csv, .png and .pdf.
 
     Each library runs in a process of its own that has warmed up; rounds over all of them are interleaved.
     Times are medians and leave out making and converting points. Memory is that of the first round.
@@ -72,8 +71,7 @@ def bench(
     for path in file:
         for written in benchmark.written(out):
             check_apart(written, path)
-    # a table in a file need not be as narrow as a terminal
-    console = Printer(highlight=False, width=None if sys.stdout.isatty() else 110)
+    console = Printer(highlight=False)
     sets = [benchmark.generated(name, round(n)) for name in distributions for n in sizes]
     sets += [benchmark.from_file(path) for path in file]
     if against is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from importlib import import_module
 
@@ -15,15 +16,28 @@ from .table2 import table2
 from .table3 import table3
 
 
+class _Later:
+    """An experiment whose module loads when it is run, or asked for its options: numba takes a second."""
+
+    def __init__(self, module: str, name: str, summary: str) -> None:
+        self.module, self.name = module, name
+        self.__doc__ = summary
+
+    def __call__(self, *args: object, **options: object) -> object:
+        return self._function()(*args, **options)
+
+    @property
+    def __signature__(self) -> inspect.Signature:
+        return inspect.signature(self._function())
+
+    def _function(self) -> Callable[..., object]:
+        function: Callable[..., object] = getattr(import_module(self.module, __package__), self.name)
+        return function
+
+
 def _kohout(name: str, summary: str) -> Callable[..., object]:
-    """An experiment that loads when it is run: numba takes a second to load."""
-
-    def run(*args: object, **options: object) -> object:
-        function: Callable[..., object] = getattr(import_module(".kohout", __package__), name)
-        return function(*args, **options)
-
-    run.__doc__ = summary
-    return run
+    """An experiment on the plane."""
+    return _Later(".kohout", name, summary)
 
 
 EXPERIMENTS: dict[str, Callable[..., object]] = {
@@ -42,7 +56,7 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-arc": _kohout("arc", "Kohout et al. 2004, Figures 9 to 11: points on an arc."),
     "kohout-subdivision": _kohout("subdivision", "Kohout et al. 2004, Figure 12, up to 16 elements."),
     "kohout-table4": _kohout("table4", "Kohout et al. 2004, Table 4: the methods compared."),
-    "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: the Crater Lake terrain."),
+    "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
 }
 
 __all__ = [

@@ -8,33 +8,30 @@ from typing import TYPE_CHECKING
 import scanvec as sv
 
 from .._output import new_figure, publish
+from .._table import Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from rich.console import Console
-    from rich.table import Table
 
 __all__ = ["new_table", "off", "panels", "print_model", "publish"]
 
 
-def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Table:
+def new_table(title: str, texts: Iterable[str], numbers: Iterable[str]) -> Sheet:
     """A table with columns of texts and of numbers, none of which is cut where a screen is narrow."""
-    from rich.box import SIMPLE
-    from rich.table import Table
-
-    table = Table(title=title, box=SIMPLE)
-    for column in texts:
-        table.add_column(column, no_wrap=True)
-    for column in numbers:
-        table.add_column(column, justify="right", overflow="fold")
-    return table
+    texts = list(texts)
+    return Sheet(title, [*texts, *numbers], texts, keep=max(1, len(texts)))
 
 
-def panels(count: int, width: float = 5.0) -> tuple[Figure, list[Axes]]:
-    """A figure, and axes side by side."""
-    figure = new_figure(width * count, 3.8)
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+def panels(count: int, width: float = 4.2) -> tuple[Figure, list[Axes]]:
+    """A figure, and axes of so many inches: at most two side by side, as more would be small in print."""
+    columns, lines = min(count, 2), -(-count // 2)
+    figure = new_figure(width * columns, 3.8 * lines)
+    axes = list(figure.subplots(lines, columns, squeeze=False).flat)
+    for extra in axes[count:]:
+        extra.remove()
+    return figure, axes[:count]
 
 
 def print_model(console: Console, model: sv.Model) -> None:

@@ -136,10 +136,10 @@ def shares(todo: Work, processors: int = PROCESSORS) -> list[Share]:
 def balance(
     out: Path, console: Console, *, sites: int = 4000, seed: int = SEED
 ) -> dict[str, tuple[list[Share], float]]:
-    """Load of 32 processors with requests and warrants and without, for uniform and clustered sites.
+    """Not in the paper: load of 32 processors with and without requests and warrants, for two sets.
 
-    Also what the search itself examines, whose cells follow the clusters. Writes ``balance.csv`` and
-    ``balance.png`` into ``out``.
+    One set is uniform, one of clusters. Also what the search itself examines, whose cells follow the
+    clusters. Writes ``balance.csv``, ``balance.png`` and ``balance.pdf`` into ``out``.
     """
     out.mkdir(parents=True, exist_ok=True)
     figure, axes = panels(4, 4.5)
@@ -170,7 +170,7 @@ def balance(
         sv.plot.load_balance(machine.ledger.of(*MAIN_LOOP), ax=axes[k + 2])
         axes[k + 2].set_title(f"{name}, the main loop as run")
     axes[0].legend(fontsize=8)
-    console.print(table)
+    table.show(console)
     for name, searched in examined.items():
         console.print(f"{name}: the search itself examined {searched:.1f} sites per expansion.")
     console.print(

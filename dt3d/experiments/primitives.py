@@ -161,9 +161,9 @@ def measurements(sizes: tuple[int, ...] = SIZES) -> Iterator[Measurement]:
 
 
 def primitives(out: Path, console: Console) -> list[Measurement]:
-    """Step and element complexity of each primitive of the scan-vector model, measured against its formula.
+    """Not in the papers: steps and elements of each scan-vector primitive, counted, against its formula.
 
-    Writes ``primitives.csv`` and ``primitives.png`` into ``out``.
+    Writes ``primitives.csv``, ``primitives.png`` and ``primitives.pdf`` into ``out``.
     """
     out.mkdir(parents=True, exist_ok=True)
     with console.status("..."):
@@ -184,7 +184,7 @@ def primitives(out: Path, console: Console) -> list[Measurement]:
                 f"{m.row.vp_steps / m.row.steps:.0f}",
                 "yes" if all(o.holds for o in found if o.primitive is m.primitive) else "no",
             )
-    console.print(table)
+    table.show(console)
     console.print(
         f"It holds if the steps are those stated, and the elements within the stated bounds, at all of "
         f"{', '.join(f'{n:,}' for n in SIZES)} elements. With {PROCESSORS} processors a step over n elements "
@@ -225,8 +225,8 @@ def _draw(found: list[Measurement]) -> Figure:
         own = [m for m in found if m.n == n]
         x, y = [m.row.elements / n for m in own], [row[m.primitive.name] for m in own]
         right.plot(x, y, "o", ms=9 - 1.4 * SIZES.index(n), color=colour, label=f"n = {n:,}")
-    left.set(title=f"steps, n = {SIZES[-1]:,}", xscale="log", xlim=(0.8, None))
-    right.set(title="elements / n", xscale="log", xlim=(0.8, None))
+    left.set(xlabel=f"steps, n = {SIZES[-1]:,}", ylabel="operation", xscale="log", xlim=(0.8, None))
+    right.set(xlabel="elements / n", xscale="log", xlim=(0.8, None))
     for ax, names in ((left, list(row)), (right, [])):
         ax.set_yticks(range(len(names)) if names else [], names, fontsize=8)
         ax.set_ylim(len(row) - 0.5, -0.5)

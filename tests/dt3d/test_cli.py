@@ -11,6 +11,7 @@ import pytest
 
 import dt3d
 from dt3d import cli, samples
+from dt3d.cli.all_experiments import QUICK
 from dt3d.cli.report import stats_table
 from dt3d.files import read_mesh, write_mesh
 
@@ -219,12 +220,16 @@ def test_experiments_are_looked_up_and_get_their_options(tmp_path, monkeypatch, 
     monkeypatch.setitem(sys.modules, "dt3d.experiments", module)
 
     assert cli.main(["experiment"]) == 0
-    assert capsys.readouterr().out.split(maxsplit=1) == ["growth", "Tetrahedra found in each iteration.\n"]
+    growth, every = capsys.readouterr().out.splitlines()
+    assert growth.split(maxsplit=1) == ["growth", "Tetrahedra found in each iteration."]
+    assert every.split(maxsplit=1) == ["all", "All of these, one after the other."]
     assert cli.main(["experiment", "growth", "--out", str(tmp_path / "x"), "--sites", "20"]) == 0
     assert seen == {"out": tmp_path / "x", "sites": 20, "exact": "no"}
     assert (tmp_path / "x").is_dir()
     assert capsys.readouterr().out == "grown\n"
     assert "there is no experiment 'decay'; there are growth" in fails(capsys, "experiment", "decay")
+    assert cli.main(["experiment", "growth", "--out", str(tmp_path / "x"), "--quick", "--exact", "yes"]) == 0
+    assert seen == {"out": tmp_path / "x", "sites": QUICK["sites"], "exact": "yes"}
     assert "takes the options sites, exact; got size" in fails(capsys, "experiment", "growth", "--size", "3")
 
 

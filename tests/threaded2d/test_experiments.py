@@ -1,13 +1,15 @@
 """The experiments on small sets: their tables, files and the paper's values."""
 
 import csv
+import sys
 
 import numpy as np
 import pytest
 from rich.console import Console
 
 from dt3d.experiments import EXPERIMENTS
-from dt3d.experiments.kohout import sets, speedups
+from dt3d.experiments.kohout import relief, sets, speedups
+from dt3d.threaded2d import Delaunay
 
 SMALL = {
     "phases": {"points": 1000},
@@ -36,6 +38,7 @@ def test_experiment(name, tmp_path):
     assert len(table) == len(rows) >= 1
     assert set(table[0]) == set(rows[0])
     assert (tmp_path / f"kohout-{name}.png").read_bytes()[:4] == b"\x89PNG"
+    assert (tmp_path / f"kohout-{name}.pdf").read_bytes()[:4] == b"%PDF"
     assert "Kohout et al. 2004" in text
     virtual = [v for row in rows for c, v in row.items() if c.startswith("virtual")]
     assert all(0.1 < v < 8 for v in virtual)
@@ -54,3 +57,40 @@ def test_the_sets(name):
     assert np.isfinite(points).all()
     assert len(np.unique(points, axis=0)) == 500
     np.testing.assert_array_equal(points, sets.DISTRIBUTIONS[name](500))
+
+
+@pytest.fixture(scope="module")
+def terrain():
+    rng = np.random.default_rng(0)
+    x, y = rng.random((2, 2000)) * 100
+    return np.column_stack([x, y, 50 * np.sin(x / 20) + 1000])
+
+
+def test_a_relief_has_the_threads_colours_and_no_margins(terrain):
+    pytest.importorskip("pyvista")
+    tri = Delaunay(terrain[:, :2], method="circumcircle", threads=2, subdivision="x-slabs")
+    picture = relief.render(tri, terrain[:, 2], spacing=30.0, width=300)
+    assert picture.dtype == np.uint8
+    assert picture.shape[2] == 3
+    drawn = (picture < 255).any(axis=2)
+    assert drawn.any(axis=0)[10]  # all but ten pixels of the white is cut off
+    assert not drawn.any(axis=0)[:10].any()
+    blue, orange = (
+        np.count_nonzero(colour)
+        for colour in (
+            picture[..., 2] > picture[..., 0].astype(int) + 20,
+            picture[..., 0] > picture[..., 2].astype(int) + 20,
+        )
+    )
+    assert min(blue, orange) > 0.02 * drawn.size
+
+
+def test_without_pyvista_the_terrain_is_seen_from_above(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with open(tmp_path / "screen", "w") as file:
+        console = Console(file=file, record=True, width=200)
+        EXPERIMENTS["kohout-crater"](tmp_path, console, points=500, repeats=1)
+        text = console.export_text()
+    assert "a relief needs PyVista" in text
+    assert "The picture is one seen from above." in text
+    assert (tmp_path / "kohout-crater.png").read_bytes()[:4] == b"\x89PNG"

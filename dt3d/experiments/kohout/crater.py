@@ -1,4 +1,4 @@
-"""Figure 13: the Crater Lake terrain."""
+"""Figure 13: the Crater Lake terrain, its speed-ups and its picture in relief."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from ..._numba.cores import available_cores
 from ...samples import crater_lake
 from ...threaded2d import Delaunay
+from . import relief
 from .report import Row, publish
 from .speedups import NOTE, SpeedupSet
 
@@ -20,11 +21,21 @@ if TYPE_CHECKING:
 # speed-ups on a P 410 (2) and a PE 6400 (4), for 100,001 points of the terrain
 PAPER = {"batch": (2.01, 4.40), "circumcircle": (2.00, 4.09)}
 
+SPACING = (
+    30.0  # metres between grid points, as models of the US Geological Survey have; the data does not say
+)
+EXAGGERATION = 2.0  # of heights
+
 
 def crater(
     out: Path, console: Console, *, points: int = 100_001, repeats: int = 3, seed: int = 0
 ) -> list[Row]:
-    """Figure 13: the Crater Lake terrain, speed-ups and a picture of it, coloured by height and by thread."""
+    """Kohout et al. 2004, Figure 13: Crater Lake, speed-ups of batch and circum-circle, and in relief.
+
+    PyVista renders the relief; without it the picture is one from above, and a line says so. The
+    triangles are those of the circum-circle method by four threads, which begin with slabs and take sites
+    from each other.
+    """
     sites = crater_lake()
     if points < len(sites):
         sites = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:points])]
@@ -35,19 +46,31 @@ def crater(
     tri = Delaunay(sites[:, :2], method="circumcircle", threads=4, subdivision="x-slabs")
 
     def draw(axes: Axes) -> None:
-        corners = sites[tri.triangles]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / [30, 30, 1]
-        light = normals @ [-0.5, 0.5, 0.7] / np.linalg.norm(normals, axis=1)
-        x, y = tri.points.T
-        axes.tripcolor(x, y, tri.triangles, facecolors=light, cmap="gray", rasterized=True)
-        axes.tripcolor(
-            x, y, tri.triangles, facecolors=tri.thread, cmap="tab10", vmax=9, alpha=0.3, rasterized=True
+        try:
+            relief.paint(axes, tri, sites[:, 2], spacing=SPACING, exaggeration=EXAGGERATION)
+        except ImportError as error:
+            console.print(f"{error}. The picture is one seen from above.", markup=False)
+            from_above(axes, tri, sites)
+        axes.set_title(
+            f"Crater Lake, {len(sites):,} points, heights times {EXAGGERATION:g}; colours: threads"
         )
-        axes.set_aspect("equal")
-        axes.set_title(f"{len(sites):,} points of Crater Lake; colours: the thread that made the triangle")
 
     note = f"{len(sites):,} points of the terrain. " + NOTE.format(
         processors=available_cores(), repeats=repeats
     )
     publish("kohout-crater", "Kohout et al. 2004, Fig. 13: Crater Lake", rows, out, console, draw, note)
     return rows
+
+
+def from_above(axes: Axes, tri: Delaunay, sites: np.ndarray) -> None:
+    """The terrain seen from above, shaded, with the threads' colours: what matplotlib alone can draw."""
+    corners = sites[tri.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / [SPACING, SPACING, 1]
+    light = normals @ [-0.5, 0.5, 0.7] / np.linalg.norm(normals, axis=1)
+    x, y = tri.points.T * SPACING / 1000
+    y = y.max() - y
+    axes.tripcolor(x, y, tri.triangles, facecolors=light, cmap="gray", rasterized=True)
+    axes.tripcolor(
+        x, y, tri.triangles, facecolors=tri.thread, cmap="tab10", vmin=0, vmax=9, alpha=0.3, rasterized=True
+    )
+    axes.set(xlabel="km to the east", ylabel="km to the north", aspect="equal")

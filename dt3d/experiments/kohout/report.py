@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ... import _output
 from ..._output import new_figure
+from ..._table import Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,21 +26,17 @@ def publish(
     draw: Callable[[Axes], None],
     note: str,
 ) -> None:
-    """Print rows, whose keys are the columns, and write ``name``.csv and ``name``.png into ``out``.
+    """Print rows, whose keys are the columns, and write ``name``.csv, .png and .pdf into ``out``.
 
     ``draw`` gets empty matplotlib axes. ``note`` says what the numbers are, and what is not comparable.
     """
-    from rich.table import Table
-
     out.mkdir(parents=True, exist_ok=True)
     columns = list(rows[0])
-    table = Table(title=title)
-    for column in columns:
-        table.add_column(column, justify="left" if isinstance(rows[0][column], str) else "right")
+    table = Sheet(title, columns, [c for c in columns if isinstance(rows[0][c], str)])
     for row in rows:
         table.add_row(*(_text(row[c]) for c in columns))
-    console.print(table)
-    console.print(note)
+    table.show(console)
+    console.print(note, markup=False)
     figure = new_figure(7, 4.5)
     draw(figure.add_subplot())
     _output.publish(console, out, name, columns, [[row[c] for c in columns] for row in rows], figure)
@@ -48,4 +45,4 @@ def publish(
 def _text(value: object) -> str:
     if value is None:
         return ""
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return f"{value:#.3g}".removesuffix(".") if isinstance(value, float) else str(value)
