@@ -79,7 +79,7 @@ def _is_machine(machine: object) -> bool:
 def _check_threads(threads: int | None, method: str) -> None:
     if threads is None:
         return
-    if not _is_count(threads, 1):
+    if not is_count(threads, 1):
         msg = f"threads must be a positive integer, or None for as many as there are cores, got {threads!r}"
         raise ValueError(msg)
     if method != "insertion":
@@ -103,7 +103,6 @@ def check_plane_options(
     threads: int | None,
     order: str,
     location: str,
-    queue_length: int | None,
     subdivision: str,
     seed: int,
 ) -> int:
@@ -123,10 +122,9 @@ def check_plane_options(
         if value not in get_args(kind):
             msg = f"{name} must be one of {', '.join(map(repr, get_args(kind)))}, got {value!r}"
             raise ValueError(msg)
-    for name, number, least in (("threads", threads, 1), ("queue_length", queue_length, 2)):
-        if number is not None and not _is_count(number, least):
-            msg = f"{name} must be an integer of at least {least}, got {number!r}"
-            raise ValueError(msg)
+    if threads is not None and not is_count(threads, 1):
+        msg = f"threads must be an integer of at least 1, got {threads!r}"
+        raise ValueError(msg)
     word = word_of(check_seed(seed))
     if threads is not None and threads > MOST_THREADS_IN_PLANE:
         msg = f"threads must be at most {MOST_THREADS_IN_PLANE}, got {threads}"
@@ -143,6 +141,6 @@ def check_plane_options(
     return word
 
 
-def _is_count(number: object, least: int) -> bool:
+def is_count(number: object, least: int) -> bool:
     """Whether it is an integer, and no bool, of at least so much."""
     return isinstance(number, int | np.integer) and not isinstance(number, bool) and bool(number >= least)

@@ -1,9 +1,10 @@
 """The batch method: searching threads, a queue, one specialised thread (section 3.3, Algorithm 2).
 
 A searching thread locates sites, several at a time, and puts each into the queue with the leaf that contains
-it; the paper sends the leaf's parent. The specialised thread, which is the last, finishes the location, as
-there may be children by then, subdivides and legalises. In the paper's variant a searching thread that finds
-the queue full takes an element, finishes its location, and puts it back.
+it, or as in the paper, on request, one at a time and with the leaf's parent. The specialised thread, which is
+the last, finishes the location, as there may be children by then, subdivides and legalises. In the variant of
+the paper's reviewer a searching thread that finds the queue full takes an element, finishes its location, and
+puts it back.
 
 The specialised thread knows which sites come next, and loads their leaves while it inserts others.
 """
@@ -21,7 +22,7 @@ from . import columns as c
 from .configuration import Options
 from .flips import insert
 from .location import DAG, WALK, find_again
-from .lookahead.located import MOST_LOCATED, Lookahead, locate_ahead, next_located, nothing_located
+from .lookahead.located import Lookahead, locate_ahead, next_located, nothing_located
 from .mesh import Store
 from .patience import LOOKS_AT_QUEUE, NAP, STEP
 from .queue import ITEM_NODE, ITEM_SITE, empty_queue, fill_of, get, put
@@ -43,21 +44,22 @@ def tools(store: Store, schedule: Schedule, options: Options) -> Tools:
     """For a run with these options."""
     location = WALK if options.location == "walk" else DAG
     cells = empty_queue(options.queue_length)
-    return Tools(schedule, cells, nothing_located(options.threads), location, options.helping)
+    lookahead = nothing_located(options.threads, options.searches, parents=options.queue_parents)
+    return Tools(schedule, cells, lookahead, location, options.helping)
 
 
 @cached_njit(forceinline=True)
 def _search(mesh, me, tools):
     """One step of a searching thread: locate a site, put some into the queue, or help."""
     state, shared, cells = mesh.state, mesh.shared, tools.cells
-    located = tools.lookahead.located[me]
+    located, most = tools.lookahead.located[me], tools.lookahead.most
     if state[me, c.HELPED] != 0:
-        if put(cells, shared, located, MOST_LOCATED, 1) == 0:
+        if put(cells, shared, located, most, 1) == 0:
             return WAITING
         state[me, c.HELPED] = 0
         return QUEUED
     left = state[me, c.LOCATED_END] - state[me, c.LOCATED_AT]
-    if state[me, c.LOCATED_END] < MOST_LOCATED and locate_ahead(
+    if state[me, c.LOCATED_END] < most and locate_ahead(
         mesh, me, tools.schedule, tools.lookahead, tools.location
     ):
         return LOCATED
@@ -69,11 +71,11 @@ def _search(mesh, me, tools):
         if count == left:
             state[me, c.LOCATED_AT] = state[me, c.LOCATED_END] = 0
         return QUEUED
-    if tools.helping and get(cells, shared, located, MOST_LOCATED, 1) == 1:
-        q, t = located[MOST_LOCATED, ITEM_SITE], located[MOST_LOCATED, ITEM_NODE]
+    if tools.helping and get(cells, shared, located, most, 1) == 1:
+        q, t = located[most, ITEM_SITE], located[most, ITEM_NODE]
         t, visited = find_again(mesh, t, q, tools.location)
         state[me, c.VISITED] += visited
-        located[MOST_LOCATED, ITEM_NODE] = t
+        located[most, ITEM_NODE] = t
         state[me, c.HELPED] = 1
         return LOCATED
     return WAITING
@@ -87,7 +89,7 @@ def _insert_next(mesh, me, tools):
         return FINISHED
     if state[me, c.LOCATED_AT] == state[me, c.LOCATED_END]:
         located, fill = tools.lookahead.located[me], fill_of(mesh.shared)
-        count = get(tools.cells, mesh.shared, located, 0, MOST_LOCATED)
+        count = get(tools.cells, mesh.shared, located, 0, tools.lookahead.most)
         if count == 0:
             return WAITING
         state[me, c.QUEUE_FILL] += fill * count

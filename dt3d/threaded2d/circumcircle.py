@@ -29,7 +29,7 @@ from .configuration import Options
 from .flips import flip, illegal, subdivide
 from .illegal_edges import mark_star, no_marks
 from .location import DAG, WALK, find_again
-from .lookahead.located import MOST_LOCATED, Lookahead, locate_ahead, next_located, nothing_located
+from .lookahead.located import Lookahead, locate_ahead, next_located, nothing_located
 from .mesh import Store
 from .pool import (
     EXCEPTIONAL,
@@ -59,6 +59,9 @@ class Tools(NamedTuple):
         Triangles beside which illegal edges may be left.
     alone : int
         The other threads begin when thread 0 has inserted so many sites.
+    test_all : bool
+        Before a flip, test both triangles and all four neighbours, as in the paper, and not only those that
+        another thread may change.
     """
 
     schedule: Schedule
@@ -67,6 +70,7 @@ class Tools(NamedTuple):
     marks: np.ndarray
     alone: int
     location: int
+    test_all: bool
 
 
 def head_start(n: int, threads: int) -> int:
@@ -86,11 +90,12 @@ def tools(store: Store, schedule: Schedule, options: Options) -> Tools:
     schedule.taker[:alone] = 0
     return Tools(
         schedule,
-        nothing_located(options.threads),
+        nothing_located(options.threads, options.searches),
         empty_pool(options.threads),
         no_marks(options.threads),
         alone,
         WALK if options.location == "walk" else DAG,
+        options.test_all,
     )
 
 
@@ -177,7 +182,10 @@ def _try_flip(mesh, me, tools, f):
     beyond = _beyond(nodes, f, 0)
     u, j = triangle(beyond), side(beyond)
     a, b = _beyond(nodes, u, (j + 1) % 3), _beyond(nodes, u, (j + 2) % 3)
-    i, serial = blocker_of(mesh, me, pool, (u, triangle(a), triangle(b)), 3)
+    # f and its other neighbours are star triangles of this thread's site; the paper tests them too
+    before, after = triangle(_beyond(nodes, f, 1)), triangle(_beyond(nodes, f, 2))
+    looked_at = (u, triangle(a), triangle(b), f, before, after)
+    i, serial = blocker_of(mesh, me, pool, looked_at, 6 if tools.test_all else 3)
     if i != NOBODY:
         return WAITING if wait_for(mesh.shared, pool, me, i, serial) else CHANGED
     if (
@@ -235,7 +243,7 @@ def step(mesh, me, tools):
         if load(state, (0, c.INSERTED)) < tools.alone:
             return WAITING
         state[me, c.PHASE] = c.BEGIN
-    if state[me, c.LOCATED_END] < MOST_LOCATED and locate_ahead(
+    if state[me, c.LOCATED_END] < tools.lookahead.most and locate_ahead(
         mesh, me, tools.schedule, tools.lookahead, tools.location
     ):
         return LOCATED

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Unpack
 
 from .._numba.cores import available_cores
 from .._options import MOST_THREADS_IN_PLANE
+from .options import PlaneOptions, with_preset
 
+INTERLEAVED = 8  # searches in turn, by a thread of the batch or circum-circle method
+MOST_PROCESSORS_OF_BATCH = 4
 WORTH_THREADS = 5000  # sites: with fewer a second thread costs more than it saves
 
 
@@ -14,8 +18,9 @@ WORTH_THREADS = 5000  # sites: with fewer a second thread costs more than it sav
 class Options:
     """What to run, after "auto" and None have been replaced.
 
-    ``helping`` is the batch method's variant in which searching threads that find the queue full finish
-    locations. With ``yield_every`` threads give way at random, once in that many chances, for tests.
+    `dt3d._plane_options.PlaneOptions` says what those of the paper's own way are: ``interleave`` (None: what
+    the method does by itself), ``fixed_parts``, ``queue_parents``, ``test_all``, ``head_start`` and
+    ``helping``. With ``yield_every`` threads give way at random, once in that many chances, for tests.
     """
 
     method: str
@@ -25,6 +30,11 @@ class Options:
     queue_length: int = 2
     subdivision: str = "random"
     seed: int = 0
+    interleave: int | None = None
+    fixed_parts: bool = False
+    queue_parents: bool = False
+    test_all: bool = False
+    head_start: bool = True
     helping: bool = False
     yield_every: int = 0
 
@@ -38,6 +48,11 @@ class Options:
         return self.location == "walk" and self.method in ("sequential", "optimistic")
 
     @property
+    def searches(self) -> int:
+        """How many sites a thread locates at a time, in turn."""
+        return self.interleave or (INTERLEAVED if self.method in ("batch", "circumcircle") else 1)
+
+    @property
     def parts(self) -> int:
         """How many threads get sites: with the batch method all but the specialised one."""
         return self.threads - 1 if self.method == "batch" else self.threads
@@ -48,15 +63,22 @@ def configured(
     *,
     method: str = "auto",
     threads: int | None = None,
-    order: str = "brio",
+    order: str | None = None,
     location: str = "dag",
-    queue_length: int | None = None,
     subdivision: str = "random",
     seed: int = 0,
+    **own: Unpack[PlaneOptions],
 ) -> Options:
-    """What is run for n sites where None or "auto" was given."""
+    """What is run for n sites where None or "auto" was given.
+
+    With the paper's preset "auto" is the batch method on up to four processors, for which the paper means it
+    (section 5), and the circum-circle method on more.
+    """
     processors = min(available_cores(), MOST_THREADS_IN_PLANE)
-    if method == "auto":
+    preset = own.get("preset") is not None
+    given = with_preset(own)
+    fixed = given.get("parts") == "fixed"
+    if method == "auto" and not preset:
         count = threads or (processors if n > WORTH_THREADS else 1)
         return Options(
             method="optimistic" if count > 1 else "sequential",
@@ -64,7 +86,10 @@ def configured(
             location="walk",
             subdivision="curve",
             seed=seed,
+            fixed_parts=fixed,
         )
+    if method == "auto":
+        method = "batch" if processors <= MOST_PROCESSORS_OF_BATCH else "circumcircle"
     if method == "batch":
         count = threads or searching_threads(n, processors) + 1
     else:
@@ -72,22 +97,31 @@ def configured(
     return Options(
         method=method,
         threads=count,
-        order=order,
+        order=order or ("random" if preset else "brio"),
         location=location,
-        queue_length=queue_length or queue_for(n),
+        queue_length=given.get("queue_length") or queue_for(n),
         subdivision=subdivision,
         seed=seed,
+        interleave=given.get("interleave"),
+        fixed_parts=fixed,
+        queue_parents=given.get("queued") == "parent" and location == "dag",
+        test_all=given.get("tested") == "all",
+        head_start=given.get("head_start") is not False,
+        helping=given.get("helping") is True,
     )
 
 
 def searching_threads(n: int, processors: int) -> int:
     """How many searching threads the batch method has for n sites (Table 1).
 
-    Two to the specialised one for small sets and three from 50,000 sites on; with four processors or more,
-    four above 100,000 sites and five above 1.5 million.
+    Two to the specialised one for small sets and three from 50,000 sites on. With four processors or more
+    three from 5,000 sites on, four above 100,000 and five above 1.5 million.
     """
-    if processors >= 4 and n > 100_000:
-        return 5 if n > 1_500_000 else 4
+    if processors >= 4:
+        for least, count in ((1_500_000, 5), (100_000, 4), (4_999, 3)):
+            if n > least:
+                return count
+        return 2
     return 3 if n >= 50_000 else 2
 
 

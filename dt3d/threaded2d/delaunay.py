@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Unpack
 
 import numpy.typing as npt
 
@@ -15,6 +15,7 @@ from .._results import Names
 from .._triangulation import InPlane, Part, Whole
 from .configuration import configured
 from .driver import triangulate
+from .options import PlaneOptions, check_names, check_values
 from .statistics import Statistics
 from .subset import Subset
 
@@ -44,18 +45,39 @@ class Delaunay(Whole[Subset], InPlane):
     threads : int, optional
         All threads. By default one for "sequential", for "batch" one more than the searching threads that
         suit n, otherwise as many as there are processors.
-    order : "brio" or "random"
-        Of insertion: random rounds along a space-filling curve, or random as in the paper.
+    order : "brio" or "random", optional
+        Of insertion: random rounds along a space-filling curve, the default; or random as in the paper, the
+        default with the preset.
     location : "dag" or "walk"
         In the history of the triangulation, as in the paper, or by walking from the triangle found last.
-    queue_length : int, optional
-        Of the batch method; by default it suits n (Table 1 of the paper).
     subdivision : "random", "x-slabs", "distance" or "curve"
         Which thread gets which sites: at random, slabs of the first coordinate, rings about the origin, or
         stretches of the space-filling curve (with order="brio"). A thread that has inserted all of its sites
         takes some of another's.
     seed : int
         Not negative, of any size: for the random order and subdivision.
+    preset : "kohout2004", optional
+        The methods as published: order="random", interleave=1, parts="fixed", queued="parent", tested="all",
+        head_start=False. What is given beside it counts. "auto" is then "batch" on up to four processors, and
+        "circumcircle" on more.
+    interleave : int, optional
+        Sites that a thread locates at a time, going on with each search in turn while memory answers the
+        others, 1 to 64: by default 8 with "batch" and "circumcircle", 1 with "sequential".
+    parts : "shared" or "fixed", optional
+        Whether a thread that has inserted all of its sites takes some of another's, the default, or ends
+        (section 4.5).
+    queued : "leaf" or "parent", optional
+        What a searching thread sends of a location: the leaf, the default, or its parent (Algorithm 2).
+    queue_length : int, optional
+        Of the batch method; by default it suits n (Table 1).
+    helping : bool, optional
+        With "batch": searching threads that find the queue full finish locations in it (section 3.3, the
+        variant of the paper's reviewer).
+    tested : "outer" or "all", optional
+        With "circumcircle": before a flip test the triangles that other threads may change, the default, or
+        also those of the thread's own star (section 3.4).
+    head_start : bool, optional
+        With "circumcircle": let one thread insert the first sites of all parts alone, the default.
 
     Attributes
     ----------
@@ -107,29 +129,32 @@ class Delaunay(Whole[Subset], InPlane):
         *,
         method: PlaneMethod = "auto",
         threads: int | None = None,
-        order: Order = "brio",
+        order: Order | None = None,
         location: Location = "dag",
-        queue_length: int | None = None,
         subdivision: Subdivision = "random",
         seed: int = 0,
+        **options: Unpack[PlaneOptions],
     ) -> None:
         begun = time.perf_counter()
-        word = check_plane_options(method, threads, order, location, queue_length, subdivision, seed)
+        check_names(options)
+        chosen = order or ("brio" if options.get("preset") is None else "random")
+        word = check_plane_options(method, threads, chosen, location, subdivision, seed)
+        check_values(options, method, location)
         announce_compilation()
         points = check_points(points2d, 2)
         sites = exactly_scaled(points)
-        options = configured(
+        run = configured(
             len(sites),
             method=method,
             threads=threads,
             order=order,
             location=location,
-            queue_length=queue_length,
             subdivision=subdivision,
             seed=word,
+            **options,
         )
         prepared = time.perf_counter()
-        outcome = triangulate(sites, options)
+        outcome = triangulate(sites, run)
         self._keep(
             points=points,
             simplices=outcome.triangles,

@@ -25,6 +25,7 @@ from .first import first_triangle
 from .illegal_edges import marked
 from .in_place import star
 from .input_subdivision import insertion_order
+from .lookahead import alone
 from .mesh import ROOTS, Store
 from .statistics import Statistics
 from .work_sharing import Schedule, ahead_of_all, share
@@ -44,7 +45,11 @@ METHODS = {
 
 def method_of(options: Options) -> steps.Method:
     """The method that the options name."""
-    return star.METHOD if options.in_place else METHODS[options.method]
+    if options.in_place:
+        return star.METHOD
+    if options.method == "sequential" and options.searches > 1:
+        return alone.METHOD
+    return METHODS[options.method]
 
 
 @dataclass
@@ -89,9 +94,9 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
     store.shared[c.YIELD_EVERY, 0] = options.yield_every
-    if options.method == "circumcircle" and options.threads > 1:
+    if options.method == "circumcircle" and options.threads > 1 and options.head_start:
         order, bounds = ahead_of_all(order, bounds, circumcircle.head_start(len(order), options.threads))
-    schedule = share(order, bounds)
+    schedule = share(order, bounds, fixed=options.fixed_parts)
     run = Run(options, store, schedule)
     ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
@@ -195,4 +200,10 @@ def _statistics(run: Run, seconds: dict[str, float], per_cycle: float) -> Statis
         location_seconds=times(c.LOCATION_CYCLES),
         change_seconds=times(c.CHANGE_CYCLES),
         wait_seconds=times(c.WAIT_CYCLES),
+        visited_by=counts(c.VISITED),
+        interleave=options.searches,
+        parts="fixed" if options.fixed_parts else "shared",
+        queued="parent" if options.queue_parents else "leaf",
+        tested="all" if options.test_all else "outer",
+        helping=options.helping,
     )

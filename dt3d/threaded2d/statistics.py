@@ -45,6 +45,11 @@ class Statistics:
     location_seconds, change_seconds, wait_seconds : tuple of float
         Time of each thread in location, in subdivision and legalisation, and waiting. Zeros where a method
         does not tell them apart (location "walk" in place).
+    visited_by : tuple of int
+        Nodes or triangles visited by each thread.
+    interleave, parts, queued, tested, helping
+        What was run of the options of these names; ``queued`` and ``helping`` are of method "batch", and
+        ``tested`` of "circumcircle".
     """
 
     method: str
@@ -70,6 +75,12 @@ class Statistics:
     location_seconds: tuple[float, ...]
     change_seconds: tuple[float, ...]
     wait_seconds: tuple[float, ...]
+    visited_by: tuple[int, ...] = ()
+    interleave: int = 1
+    parts: str = "shared"
+    queued: str = "leaf"
+    tested: str = "outer"
+    helping: bool = False
 
     @property
     def tests_per_access(self) -> float:

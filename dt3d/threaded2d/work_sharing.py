@@ -2,7 +2,8 @@
 
 The paper gives every thread a fixed part (Kohout et al. 2004, section 4.5). Where processors are not equally
 fast, as those of a virtual machine, all then wait for the slowest. Here a thread takes its part in chunks,
-and when nothing is left of it chunks of other parts. Small parts are one chunk.
+and when nothing is left of it chunks of other parts. Small parts are one chunk. With fixed parts, on request,
+a thread that has inserted its own ends.
 """
 
 from __future__ import annotations
@@ -32,18 +33,21 @@ class Schedule(NamedTuple):
     parts : int64 (parts, 16)
     taker : int16 (n,)
         The thread that took each.
+    fixed : bool
+        Whether no thread takes sites of another's part.
     """
 
     order: np.ndarray
     parts: np.ndarray
     taker: np.ndarray
+    fixed: bool
 
 
-def share(order: np.ndarray, bounds: np.ndarray) -> Schedule:
+def share(order: np.ndarray, bounds: np.ndarray, *, fixed: bool = False) -> Schedule:
     """Sites in parts that begin at bounds[:-1] and end at bounds[1:]; one thread or more for all of them."""
     parts = padded(len(bounds) - 1)
     parts[:, TAKEN], parts[:, PART_END] = bounds[:-1], bounds[1:]
-    return Schedule(order, parts, np.full(len(order), -1, np.int16))
+    return Schedule(order, parts, np.full(len(order), -1, np.int16), fixed)
 
 
 def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -61,13 +65,13 @@ def ahead_of_all(order: np.ndarray, bounds: np.ndarray, count: int) -> tuple[np.
 
 @cached_njit
 def next_chunk(state, schedule, me):
-    """Take a chunk, the sites NEXT to CHUNK_END - 1 of the order: of its own part, then of others'.
+    """Take a chunk, the sites NEXT to CHUNK_END - 1 of the order: of its own part, then of others' if it may.
 
     Returns whether there was one.
     """
     parts = schedule.parts
     own = state[me, c.PART]
-    for i in range(len(parts)):
+    for i in range(1 if schedule.fixed else len(parts)):
         part = (own + i) % len(parts)
         # the last chunks are left to the thread whose part it is, or that is at it
         left = parts[part, PART_END] - load(parts, (part, TAKEN))

@@ -134,6 +134,7 @@ def _plane(tri: Any, rng: Rng) -> list[str]:
             queue_length=int(rng.choice([2, 3, 64])),
             subdivision=str(rng.choice(SUBDIVISIONS)),
             seed=int(rng.integers(2**31)),
+            preset="kohout2004" if rng.integers(2) else None,
         )
         outcome = triangulate_plane(sites, options.contended(2, helping=bool(rng.integers(2))))
         _require_equal(tri.points, outcome.triangles, tri, method)

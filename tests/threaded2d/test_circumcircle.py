@@ -49,6 +49,18 @@ def test_a_site_is_in_the_pool_from_its_location_to_its_last_flip():
     assert store.state[0, c.TESTS] == 0  # the other thread has published nothing
 
 
+def test_all_neighbours_are_tested_on_request():
+    counts = {}
+    for test_all in (False, True):
+        options = Options(method="circumcircle", threads=2, order="random", test_all=test_all, interleave=1)
+        store, schedule = prepared(uniform(300), options)
+        run_to_the_end(store, tools(store, schedule, options), 2)
+        assert store.state[:, c.INSERTED].sum() == 297
+        counts[test_all] = store.state[:, [c.TESTS, c.FLIPS]].sum(axis=0)
+    # three tests more per flip that finds no site of the other thread near
+    assert counts[True][0] > counts[False][0] + counts[False][1]
+
+
 def test_threads_wait_where_circles_meet_and_all_sites_are_inserted():
     store, t = begun(uniform(150), "circumcircle", 4)
     waits = run_to_the_end(store, t, 4)

@@ -52,6 +52,33 @@ def test_without_a_history_are_the_walking_methods_that_change_in_place():
     assert in_place == {("sequential", "walk"), ("optimistic", "walk")}
 
 
+@pytest.mark.parametrize(
+    ("processors", "counts"), [(1, [2, 2, 3, 3, 3]), (2, [2, 2, 3, 3, 3]), (4, [2, 3, 3, 4, 5])]
+)
+def test_searching_threads_are_those_of_section_4_2(processors, counts):
+    sizes = [1000, 5000, 100_000, 100_001, 1_500_001]
+    assert [searching_threads(n, processors) for n in sizes] == counts
+
+
+@pytest.mark.parametrize("cores", [1, 2, 4, 6])
+def test_the_preset_is_the_paper_s_own_way(cores, monkeypatch):
+    monkeypatch.setattr(configuration, "available_cores", lambda: cores)
+    chosen = configured(10_000, preset="kohout2004")
+    assert chosen.method == ("batch" if cores <= 4 else "circumcircle")
+    for method in ("sequential", "batch", "circumcircle", "pessimistic", "optimistic"):
+        o = configured(10_000, method=method, preset="kohout2004")
+        assert (o.method, o.order, o.location, o.subdivision) == (method, "random", "dag", "random")
+        assert (o.searches, o.fixed_parts, o.queue_parents, o.test_all) == (1, True, True, True)
+        assert (o.head_start, o.helping) == (False, False)
+        own = configured(10_000, method=method, order="random")
+        assert own.searches == (8 if method in ("batch", "circumcircle") else 1)
+        assert not any((own.fixed_parts, own.queue_parents, own.test_all, own.helping))
+    assert configured(100, method="batch", preset="kohout2004", interleave=4, order="brio").searches == 4
+    assert configured(100, method="batch", preset="kohout2004", order="brio").order == "brio"
+    walking = configured(100, method="batch", preset="kohout2004", location="walk")
+    assert not walking.queue_parents
+
+
 def test_contention_is_for_tests():
     options = configured(100, method="batch", threads=3)
     assert (options.yield_every, options.helping) == (0, False)

@@ -21,6 +21,17 @@ def test_a_thread_that_has_done_its_part_takes_of_the_others():
     assert (schedule.taker == np.where(np.arange(2 * n) // CHUNK == 5, 1, 0)).all()
 
 
+def test_fixed_parts_stay_with_their_threads():
+    n = 5 * CHUNK
+    schedule = share(np.arange(2 * n), np.array([0, n, 2 * n]), fixed=True)
+    state = np.zeros((2, STATE_COLUMNS), np.int64)
+    state[:, PART] = 0, 1
+    while next_chunk(state, schedule, 0):
+        pass
+    assert (schedule.taker == np.repeat([0, -1], n)).all()
+    assert next_chunk(state, schedule, 1)
+
+
 def test_the_first_sites_of_all_parts_go_ahead():
     order, bounds = ahead_of_all(np.arange(10) * 10, np.array([0, 5, 6, 10]), 2)
     assert order.tolist() == [0, 10, 50, 60, 70, 20, 30, 40, 80, 90]

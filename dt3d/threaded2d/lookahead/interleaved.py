@@ -17,25 +17,25 @@ from ..columns import first_child
 from ..dag import child_of
 from ..geometry import root_of
 
-SEARCHES = 8
-
-# columns of a thread's searches: the site or `IDLE`, the node that it has come to, and its children
-SEARCH_SITE, SEARCH_NODE, SEARCH_CHILDREN = range(3)
+# columns of a thread's searches: the site or `IDLE`, the node that it has come to, its children, its
+# parent
+SEARCH_SITE, SEARCH_NODE, SEARCH_CHILDREN, SEARCH_PARENT = range(4)
 
 IDLE = -1
 
 
-def idle_searches(threads: int) -> np.ndarray:
-    """The searches of each thread: int64 (threads, SEARCHES, 4)."""
-    searches = rows_apart(threads, 4 * SEARCHES)
+def idle_searches(threads: int, count: int) -> np.ndarray:
+    """``count`` searches of each thread: int64 (threads, count or a few more, 4)."""
+    searches = rows_apart(threads, 4 * count)
     searches[:] = IDLE
-    return searches.reshape(threads, SEARCHES, 4)
+    return searches.reshape(threads, -1, 4)
 
 
 @cached_njit(forceinline=True)
 def _look_ahead(nodes, searches, i, t):
     """Let search i go on from node t; whether t is a leaf."""
     children = load_acquire(nodes, (t, c.CHILD))
+    searches[i, SEARCH_PARENT] = searches[i, SEARCH_NODE]
     searches[i, SEARCH_NODE], searches[i, SEARCH_CHILDREN] = t, children
     if children < 0:
         return True
@@ -47,21 +47,22 @@ def _look_ahead(nodes, searches, i, t):
 
 @cached_njit(forceinline=True)
 def start(mesh, searches, i, q):
-    """Let search i begin for site q, at its root."""
-    searches[i, SEARCH_SITE] = q
-    _look_ahead(mesh.nodes, searches, i, root_of(mesh, q))
+    """Let search i begin for site q, at its root, which counts as its own parent."""
+    root = root_of(mesh, q)
+    searches[i, SEARCH_SITE], searches[i, SEARCH_NODE] = q, root
+    _look_ahead(mesh.nodes, searches, i, root)
 
 
 @cached_njit(forceinline=True)
-def advance(mesh, searches):
-    """Go on with all searches until a site is located.
+def advance(mesh, searches, count):
+    """Go on with the first ``count`` searches until a site is located.
 
     Returns its search, or `IDLE` where all are idle; and how many nodes were visited.
     """
     visited = 0
     while True:
         busy = False
-        for i in range(SEARCHES):
+        for i in range(count):
             q = searches[i, SEARCH_SITE]
             if q == IDLE:
                 continue
@@ -73,7 +74,7 @@ def advance(mesh, searches):
             visited += 1
             if _look_ahead(mesh.nodes, searches, i, t):
                 return i, visited
-            if visited > SEARCHES * len(mesh.nodes):  # each search visits a node once (`dag`)
+            if visited > count * len(mesh.nodes):  # each search visits a node once (`dag`)
                 msg = "the history of a 2D triangulation goes round in circles"
                 raise InternalError(msg)
         if not busy:

@@ -16,10 +16,16 @@ from .. import columns as c
 from ..location import WALK, walk_history
 from ..queue import ITEM_NODE, ITEM_SITE
 from ..work_sharing import next_site
-from .interleaved import IDLE, SEARCH_NODE, SEARCH_SITE, SEARCHES, advance, idle_searches, start
+from .interleaved import (
+    IDLE,
+    SEARCH_NODE,
+    SEARCH_PARENT,
+    SEARCH_SITE,
+    advance,
+    idle_searches,
+    start,
+)
 from .prefetch import prefetch_around, prefetch_beyond
-
-MOST_LOCATED = 8  # of a thread
 
 
 class Lookahead(NamedTuple):
@@ -27,20 +33,26 @@ class Lookahead(NamedTuple):
 
     Attributes
     ----------
-    searches : int64 (threads, SEARCHES, 4)
+    searches : int64 (threads, most or a few more, 4)
         On their way; see `interleaved`.
-    located : int64 (threads, MOST_LOCATED + 1 or a few more, 2)
+    located : int64 (threads, most + 1 or a few more, 2)
         Sites and their leaves, and one of another thread that is helped.
+    most : int
+        Sites that a thread locates at a time.
+    found : int
+        What is kept of a search: its leaf, SEARCH_NODE, or the parent of that, SEARCH_PARENT.
     """
 
     searches: np.ndarray
     located: np.ndarray
+    most: int
+    found: int
 
 
-def nothing_located(threads: int) -> Lookahead:
-    """The beginning of a run."""
-    located = rows_apart(threads, 2 * (MOST_LOCATED + 1))
-    return Lookahead(idle_searches(threads), located.reshape(threads, -1, 2))
+def nothing_located(threads: int, most: int, *, parents: bool = False) -> Lookahead:
+    """The beginning of a run in which each thread locates ``most`` sites at a time."""
+    located = rows_apart(threads, 2 * (most + 1)).reshape(threads, -1, 2)
+    return Lookahead(idle_searches(threads, most), located, most, SEARCH_PARENT if parents else SEARCH_NODE)
 
 
 @cached_njit(forceinline=True)
@@ -64,16 +76,16 @@ def locate_ahead(mesh, me, schedule, lookahead, location):
         state[me, c.HINT] = t
     else:
         searches = lookahead.searches[me]
-        for i in range(SEARCHES):
+        for i in range(lookahead.most):
             if searches[i, SEARCH_SITE] == IDLE:
                 q = _next_start(mesh, me, schedule)
                 if q < 0:
                     break
                 start(mesh, searches, i, q)
-        i, visited = advance(mesh, searches)
+        i, visited = advance(mesh, searches, lookahead.most)
         if i == IDLE:
             return False
-        q, t = searches[i, SEARCH_SITE], searches[i, SEARCH_NODE]
+        q, t = searches[i, SEARCH_SITE], searches[i, lookahead.found]
         searches[i, SEARCH_SITE] = IDLE
     state[me, c.VISITED] += visited
     end = state[me, c.LOCATED_END]

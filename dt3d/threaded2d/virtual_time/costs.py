@@ -65,7 +65,7 @@ def prepared(points: np.ndarray, options: Options) -> tuple[Store, Schedule]:
     rows = np.take(points, site, axis=0)
     first, order, bounds = first_triangle(rows, *insertion_order(rows, options))
     store = Store(rows, first, options.threads, 24 * len(rows) + 4096 * options.threads)
-    return store, share(order, bounds)
+    return store, share(order, bounds, fixed=options.fixed_parts)
 
 
 @cached_njit(nogil=True)

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from dt3d.threaded2d import columns as c
+from dt3d.threaded2d.configuration import INTERLEAVED
 from dt3d.threaded2d.dag import locate
 from dt3d.threaded2d.location import DAG, WALK
-from dt3d.threaded2d.lookahead.located import MOST_LOCATED, locate_ahead, next_located, nothing_located
+from dt3d.threaded2d.lookahead.located import locate_ahead, next_located, nothing_located
 from dt3d.threaded2d.queue import ITEM_NODE, ITEM_SITE
 from dt3d.threaded2d.work_sharing import share
 
@@ -18,11 +19,11 @@ def _begun():
     store, others = half_inserted(uniform(200))
     store.state[0, c.HINT] = locate(store.mesh(), int(others[0]))[0]
     store.state[0, c.VISITED] = 0
-    return store, others, share(others, np.array([0, len(others)])), nothing_located(1)
+    return store, others, share(others, np.array([0, len(others)])), nothing_located(1, INTERLEAVED)
 
 
 @pytest.mark.parametrize("location", [DAG, WALK])
-@pytest.mark.parametrize("ahead", [1, 3, MOST_LOCATED])
+@pytest.mark.parametrize("ahead", [1, 3, INTERLEAVED])
 def test_every_site_is_located_and_taken_once(location, ahead):
     store, others, schedule, lookahead = _begun()
     mesh, state = store.mesh(), store.state[0]
