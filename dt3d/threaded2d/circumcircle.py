@@ -43,7 +43,7 @@ from .pool import (
     wait_for,
 )  # fmt: skip
 from .steps import CHANGED, FINISHED, LOCATED, WAITING, method
-from .work_sharing import TAKEN, Schedule
+from .work_sharing import TAKEN, Schedule, ahead_of_all
 
 HEAD_START = 1024
 
@@ -80,6 +80,13 @@ def head_start(n: int, threads: int) -> int:
     spreads over all that follows. They are of all parts, so that the threads are then equally far.
     """
     return min(HEAD_START, n // (8 * threads)) // threads
+
+
+def with_head_start(order: np.ndarray, bounds: np.ndarray, options: Options) -> tuple[np.ndarray, np.ndarray]:
+    """The order and the bounds of the parts with the sites of the head start, if there is one, in front."""
+    if options.method != "circumcircle" or options.threads == 1 or not options.head_start:
+        return order, bounds
+    return ahead_of_all(order, bounds, head_start(len(order), options.threads))
 
 
 def tools(store: Store, schedule: Schedule, options: Options) -> Tools:

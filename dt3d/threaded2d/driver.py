@@ -28,7 +28,7 @@ from .input_subdivision import insertion_order
 from .lookahead import alone
 from .mesh import ROOTS, Store
 from .statistics import Statistics
-from .work_sharing import Schedule, ahead_of_all, share
+from .work_sharing import Schedule, share
 
 # Bytes per site, as measured: what is written, and with what is only reserved.
 WRITTEN_IN_PLACE, RESERVED_IN_PLACE = 190, 210
@@ -94,8 +94,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
     capacity = ROOTS + 2 * len(rows) if options.in_place else None
     store = Store(rows, first, options.threads, capacity)
     store.shared[c.YIELD_EVERY, 0] = options.yield_every
-    if options.method == "circumcircle" and options.threads > 1 and options.head_start:
-        order, bounds = ahead_of_all(order, bounds, circumcircle.head_start(len(order), options.threads))
+    order, bounds = circumcircle.with_head_start(order, bounds, options)
     schedule = share(order, bounds, fixed=options.fixed_parts)
     run = Run(options, store, schedule)
     ticks, clock = steps.now(), time.perf_counter()

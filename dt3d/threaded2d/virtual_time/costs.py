@@ -12,10 +12,12 @@ from ..._numba.unowned import unowned
 from ...ordering.along_curve import along_curve_in_plane
 from .. import columns as c
 from .. import sequential
+from ..circumcircle import with_head_start
 from ..columns import triangle
 from ..configuration import Options
 from ..first import first_triangle
 from ..input_subdivision import insertion_order
+from ..lookahead import alone
 from ..mesh import Store
 from ..pool import touches
 from ..steps import now
@@ -42,8 +44,9 @@ class Costs(NamedTuple):
         A node made by subdivision (three) or a flip (two), with the tests that led to it.
     test : float
         A circum-circle test of the pool.
-    queue, locks, wait : float
-        Elements put or taken together; the locks of an insertion; a look whether a wait is over.
+    queue, get, locks, wait : float
+        Elements put into the queue together; those taken from it; the locks of an insertion; a look whether a
+        wait is over.
     slice : float
         How long a thread keeps its element when others want it.
     """
@@ -52,6 +55,7 @@ class Costs(NamedTuple):
     node: float
     test: float
     queue: float = QUEUE
+    get: float = QUEUE
     locks: float = LOCKS
     wait: float = YIELD
     slice: float = SLICE
@@ -64,6 +68,7 @@ def prepared(points: np.ndarray, options: Options) -> tuple[Store, Schedule]:
         site = np.sort(site)
     rows = np.take(points, site, axis=0)
     first, order, bounds = first_triangle(rows, *insertion_order(rows, options))
+    order, bounds = with_head_start(order, bounds, options)
     store = Store(rows, first, options.threads, 24 * len(rows) + 4096 * options.threads)
     return store, share(order, bounds, fixed=options.fixed_parts)
 
@@ -83,16 +88,21 @@ def _tests(mesh, leaves, sites, rounds):
     return touched
 
 
-def measure(points: np.ndarray, order: str = "random", repeats: int = 3) -> Costs:
-    """The costs of these points, float64 (n, 2), by the median of sequential runs."""
-    options = Options(method="sequential", order=order)
+def measure(points: np.ndarray, order: str = "random", repeats: int = 3, interleave: int = 1) -> Costs:
+    """The costs of these points, float64 (n, 2), by the median of sequential runs.
+
+    With so many searches interleaved a node on the way of a location costs less, as searches wait for memory
+    together.
+    """
+    options = Options(method="sequential", order=order, interleave=interleave)
+    way = alone if interleave > 1 else sequential
     rng = np.random.default_rng(0)
     found = []
     for _ in range(repeats):
         store, schedule = prepared(points, options)
-        mesh, tools = store.mesh(), sequential.tools(store, schedule, options)
+        mesh, tools = store.mesh(), way.tools(store, schedule, options)
         ticks, clock = now(), time.perf_counter()
-        sequential.METHOD.run(mesh, 0, tools)
+        way.METHOD.run(mesh, 0, tools)
         per_cycle = (time.perf_counter() - clock) / (now() - ticks)
         counts = store.state[0]
         visit = counts[c.LOCATION_CYCLES] * per_cycle / max(1, counts[c.VISITED])

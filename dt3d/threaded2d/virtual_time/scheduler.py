@@ -5,7 +5,7 @@ that real threads take, on the very structure. It then sets the clock forward by
 (nodes visited, edges flipped, tests ...) times costs that were measured in a sequential run. So waits,
 deadlocks, lock conflicts and a queue that is full or empty come about as they would, and a run can be
 repeated. What is left out: caches, which made the paper's speed-ups more than linear, the memory's bandwidth,
-and the correction of swaps that were given up.
+and the time of the correction of swaps that were given up, which comes at the end, as in the paper.
 
 Elements take turns with their threads when a thread waits, and after a slice of time when there are more
 threads than elements.
@@ -21,11 +21,14 @@ import numpy as np
 
 from ..._numba.kernel_cache import cached_njit
 from ..._numba.unowned import unowned
+from .. import circumcircle
 from .. import columns as c
 from ..configuration import Options
+from ..correction import correct
 from ..dag import locate
 from ..driver import METHODS
 from ..flips import insert
+from ..illegal_edges import marked
 from ..patience import STEP, strive
 from ..steps import CHANGED, FINISHED, LOCKED, QUEUED, WAITING, specialised
 from ..work_sharing import next_site
@@ -49,6 +52,9 @@ class Simulation:
     given_up: int
     tests: int
     triangles: int
+    visited: tuple[int, ...]  # nodes, by each thread
+    inserted: tuple[int, ...]  # sites, by each thread
+    corrected: int  # swaps that the correction had to make, where it was to count them
 
 
 step: Any = None  # a method's own, see `specialised`
@@ -94,6 +100,7 @@ def _simulate(mesh, tools, elements, costs, prices):
                 continue
         k = running[e]
         visited, flips, inserted, tests = _counted(state, k)
+        helped = state[k, c.HELPED]
         outcome = step(mesh, k, tools)
         visited2, flips2, inserted2, tests2 = _counted(state, k)
         if outcome == FINISHED:
@@ -108,6 +115,9 @@ def _simulate(mesh, tools, elements, costs, prices):
         )
         # the subdivision is counted with the end of the insertion
         spent += costs.node * 3 * (inserted2 - inserted) + prices[outcome]
+        if state[k, c.HELPED] > helped:
+            # it took an element from the queue to finish its location
+            spent += costs.get
         busy += spent
         if outcome == WAITING:
             spent += costs.wait
@@ -172,13 +182,15 @@ def _prices(method: str, costs: Costs) -> np.ndarray:
     """Seconds of each outcome of a step."""
     prices = np.zeros(6)
     if method == "batch":
-        prices[[CHANGED, QUEUED]] = costs.queue
+        prices[CHANGED], prices[QUEUED] = costs.get, costs.queue
     elif method == "optimistic":
         prices[LOCKED] = costs.locks
     return prices
 
 
-def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) -> Simulation:
+def simulate(
+    points: np.ndarray, options: Options, elements: int, costs: Costs, *, count_corrected: bool = False
+) -> Simulation:
     """A run on ``elements`` processing elements, in virtual time.
 
     Parameters
@@ -191,6 +203,9 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
         1 to 64.
     costs : Costs
         Seconds of the operations that a step counts.
+    count_corrected : bool
+        Make up for swaps that were given up, in no time, to count them. On narrow triangles, as of an arc,
+        there may be quadratically many.
 
     Raises
     ------
@@ -207,6 +222,7 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
         elements = elements if options.method == "pessimistic" else 1
         options = replace(options, threads=elements)
         store, schedule = prepared(points, options)
+        tools: object = None
         seconds, busy = _simulate_critical(store.mesh(), schedule, elements, costs)
     else:
         store, schedule = prepared(points, options)
@@ -214,6 +230,9 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
         prices = _prices(options.method, costs)
         seconds, busy = _simulation(options.method)(store.mesh(), tools, elements, costs, prices)
     s = store.state.sum(axis=0)
+    corrected = 0
+    if count_corrected and isinstance(tools, circumcircle.Tools):
+        corrected = correct(store, marked(store, tools.marks))
     leaves = int((store.nodes[:, c.CHILD] < 0).sum())
     return Simulation(
         seconds=float(seconds),
@@ -224,4 +243,7 @@ def simulate(points: np.ndarray, options: Options, elements: int, costs: Costs) 
         given_up=int(s[c.GIVEN_UP]),
         tests=int(s[c.TESTS]),
         triangles=leaves,
+        visited=tuple(int(x) for x in store.state[:, c.VISITED]),
+        inserted=tuple(int(x) for x in store.state[:, c.INSERTED]),
+        corrected=corrected,
     )

@@ -1,5 +1,7 @@
 """Virtual time: repeatable, sound, and near the paper's speed-ups on four processors."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -54,6 +56,29 @@ def test_four_elements_come_within_a_fifth_of_the_paper():
     for method, paper in PAPER_AT_4.items():
         speed_up = alone / simulate(points, options(method, 4), 4, COSTS).seconds
         assert abs(speed_up / paper - 1) < 0.2, (method, speed_up)
+
+
+def test_what_is_left_open_is_corrected_on_request():
+    points = uniform(5000)
+    chosen = options("circumcircle", 16, head_start=False, interleave=1)
+    run = simulate(points, chosen, 16, COSTS, count_corrected=True)
+    assert run.given_up > 0  # with so many threads some deadlocks come about
+    assert run.corrected > 0
+    assert run.triangles == 2 * (len(points) - 1)
+    assert run == replace(simulate(points, chosen, 16, COSTS), corrected=run.corrected)
+    assert sum(run.inserted) == len(points) - 3
+
+
+def test_a_helper_pays_for_the_element_that_it_takes():
+    points = uniform(3000)
+    chosen = Options(method="batch", threads=4, order="random", queue_length=16, interleave=1)
+    plain = simulate(points, chosen, 4, COSTS)
+    assert simulate(points, chosen, 4, COSTS._replace(get=1e-6)).seconds > plain.seconds
+    helping = replace(chosen, helping=True)
+    cheap, dear = (simulate(points, helping, 4, COSTS._replace(get=s)) for s in (0.0, 1e-6))
+    assert cheap.seconds < dear.seconds
+    # the specialised thread, which is the last, has less of the location left to do
+    assert cheap.visited[-1] < plain.visited[-1]
 
 
 def test_errors():
