@@ -51,12 +51,22 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "primitives": primitives,
     "kohout-phases": _kohout("phases", "Kohout et al. 2004, Figure 1: time by phase."),
     "kohout-queue": _kohout("queue", "Kohout et al. 2004, Table 1: the best length of the queue."),
-    "kohout-batch": _kohout("batch", "Kohout et al. 2004, Figures 4 to 6: the batch method."),
-    "kohout-circumcircle": _kohout("circumcircle", "Kohout et al. 2004, Figures 7 and 8: circum-circle."),
+    "kohout-batch": _kohout("batch", "Kohout et al. 2004, Figures 4 and 5, Table 2: the batch method."),
+    "kohout-circumcircle": _kohout("circumcircle", "Kohout et al. 2004, Figure 7, Table 3: circum-circle."),
+    "kohout-preset": _kohout("preset", "Kohout et al. 2004, Figures 6 and 8: five distributions."),
     "kohout-arc": _kohout("arc", "Kohout et al. 2004, Figures 9 to 11: points on an arc."),
-    "kohout-subdivision": _kohout("subdivision", "Kohout et al. 2004, Figure 12, up to 16 elements."),
+    "kohout-subdivision": _kohout("subdivision", "Kohout et al. 2004, Figure 12, up to 64 elements."),
     "kohout-table4": _kohout("table4", "Kohout et al. 2004, Table 4: the methods compared."),
     "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
+    "kohout-wrong": _kohout(
+        "wrong_triangles", "Kohout et al. 2004, section 3.4: how rare wrong triangles are."
+    ),
+    "kohout-helping": _kohout(
+        "helping", "Kohout et al. 2004, section 3.3: when the reviewer's variant pays."
+    ),
+    "kohout-interleave": _kohout("interleaving", "Kohout et al. 2004, section 4.2: caches or latency."),
+    "kohout-batch-end": _kohout("end_of_batch", "Kohout et al. 2004, section 4.2: where batch ends."),
+    "kohout-costs": _kohout("measure_costs", "What virtual time counts with, measured here: a file."),
 }
 
 __all__ = [

@@ -8,16 +8,22 @@ import pytest
 from rich.console import Console
 
 from dt3d.experiments import EXPERIMENTS
-from dt3d.experiments.kohout import relief, sets, speedups
+from dt3d.experiments.kohout import paper, relief, sets
 from dt3d.threaded2d import Delaunay
 
 SMALL = {
     "phases": {"points": 1000},
     "queue": {"points": "1000,2000"},
-    "batch": {"points": 1000, "repeats": 1},
+    "batch": {"points": 1000, "repeats": 1, "data": "crater"},
     "circumcircle": {"points": 1000, "repeats": 1},
-    "arc": {"points": 500, "repeats": 1},
-    "subdivision": {"points": 1000},
+    "preset": {"points": 1000, "repeats": 1, "distributions": "uniform,arc"},
+    "arc": {"points": 500},
+    "subdivision": {"points": 1000, "seeds": 2, "elements": "2,8"},
+    "wrong": {"points": "1000", "seeds": 1, "elements": "4,16"},
+    "helping": {"points": "1000,3000"},
+    "interleave": {"points": 1000, "repeats": 1, "searches": "1,8"},
+    "batch-end": {"points": 2000, "elements": "2,8"},
+    "costs": {"points": "500", "repeats": 1},
     "table4": {"points": 1000, "repeats": 1},
     "crater": {"points": 1000, "repeats": 1},
 }
@@ -39,15 +45,25 @@ def test_experiment(name, tmp_path):
     assert set(table[0]) == set(rows[0])
     assert (tmp_path / f"kohout-{name}.png").read_bytes()[:4] == b"\x89PNG"
     assert (tmp_path / f"kohout-{name}.pdf").read_bytes()[:4] == b"%PDF"
-    assert "Kohout et al. 2004" in text
-    virtual = [v for row in rows for c, v in row.items() if c.startswith("virtual")]
-    assert all(0.1 < v < 8 for v in virtual)
+    assert "Kohout et al. 2004" in text or name == "costs"
+    virtual = [v for row in rows for c, v in row.items() if "virtual" in c and v is not None]
+    assert all(0.1 < v < 16 for v in virtual)
 
 
 def test_the_values_of_the_paper():
-    assert speedups.TABLE4["batch"] == (2.42, 3.81)
-    assert speedups.BATCH[100_000][2] == pytest.approx(speedups.TABLE4["batch"][0], abs=0.005)
-    assert speedups.CIRCUMCIRCLE[100_000][2] == 2.399
+    assert paper.TABLE4["batch"] == (2.42, 3.81)
+    assert paper.BATCH[100_000][2] == pytest.approx(paper.TABLE4["batch"][0], abs=0.005)
+    assert paper.CIRCUMCIRCLE[100_000][2] == 2.399
+
+
+@pytest.mark.parametrize("name", ["arc", "helping", "queue", "subdivision", "wrong"])
+def test_virtual_tables_are_the_same_twice(name, tmp_path):
+    tables = []
+    for k in range(2):
+        with open(tmp_path / "screen", "w") as file:
+            EXPERIMENTS[f"kohout-{name}"](tmp_path / str(k), Console(file=file, width=200), **SMALL[name])
+            tables.append((tmp_path / str(k) / f"kohout-{name}.csv").read_text())
+    assert tables[0] == tables[1]
 
 
 @pytest.mark.parametrize("name", sets.DISTRIBUTIONS)

@@ -7,19 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..._numba.cores import available_cores
 from ...samples import crater_lake
 from ...threaded2d import Delaunay
 from . import relief
+from .busy import warn_if_busy
+from .costs import SHIPPED_NAME, chosen_costs, described
+from .paper import CRATER
 from .report import Row, publish
-from .speedups import NOTE, SpeedupSet
+from .runs import SpeedupSet, note_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from rich.console import Console
-
-# speed-ups on a P 410 (2) and a PE 6400 (4), for 100,001 points of the terrain
-PAPER = {"batch": (2.01, 4.40), "circumcircle": (2.00, 4.09)}
 
 SPACING = (
     30.0  # metres between grid points, as models of the US Geological Survey have; the data does not say
@@ -28,9 +27,10 @@ EXAGGERATION = 2.0  # of heights
 
 
 def crater(
-    out: Path, console: Console, *, points: int = 100_001, repeats: int = 3, seed: int = 0
-) -> list[Row]:
-    """Kohout et al. 2004, Figure 13: Crater Lake, speed-ups of batch and circum-circle, and in relief.
+    out: Path, console: Console, *, points: int = 100_001, repeats: int = 3, seed: int = 0,
+    costs: str = SHIPPED_NAME,
+) -> list[Row]:  # fmt: skip
+    """Kohout et al. 2004, Figure 13: Crater Lake, batch and circum-circle as published, and in relief.
 
     PyVista renders the relief; without it the picture is one from above, and a line says so. The
     triangles are those of the circum-circle method by four threads, which begin with slabs and take sites
@@ -39,10 +39,12 @@ def crater(
     sites = crater_lake()
     if points < len(sites):
         sites = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:points])]
-    given = SpeedupSet(sites[:, :2], repeats)
+    warn_if_busy(console)
+    table = chosen_costs(costs, [("crater", points, 1)])
+    given = SpeedupSet("crater", sites[:, :2], table)
     rows: list[Row] = []
-    for method, (two, four) in PAPER.items():
-        rows.append({"method": method, "paper 2": two, "paper 4": four} | given.row(method))
+    for method, (two, four) in CRATER.items():
+        rows.append({"method": method, "paper 2": two, "paper 4": four} | given.row(method, repeats))
     tri = Delaunay(sites[:, :2], method="circumcircle", threads=4, subdivision="x-slabs")
 
     def draw(axes: Axes) -> None:
@@ -55,8 +57,9 @@ def crater(
             f"Crater Lake, {len(sites):,} points, heights times {EXAGGERATION:g}; colours: threads"
         )
 
-    note = f"{len(sites):,} points of the terrain. " + NOTE.format(
-        processors=available_cores(), repeats=repeats
+    note = (
+        f"{len(sites):,} points of the terrain. {note_of(table.source, repeats)} "
+        f"Costs: {described(table.of('crater', len(sites)))}."
     )
     publish("kohout-crater", "Kohout et al. 2004, Fig. 13: Crater Lake", rows, out, console, draw, note)
     return rows
