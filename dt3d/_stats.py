@@ -17,10 +17,9 @@ class Statistics:
     Attributes
     ----------
     iterations : int
-        Rounds of face expansion (the table's "depth"). The last one may find facets of the hull only. Whole
-        steps compiled for a device, which exact decisions on ``scanvec.Device()`` take for 2,000 sites or
-        more that fill space evenly, count differently: the first tetrahedra are one iteration, and each
-        wave, which expands a part of the open faces, is another.
+        Rounds of face expansion (the table's "depth"). The last one may find facets of the hull only. Where
+        whole steps compiled for a device find tetrahedra in another order, see `waves`, these are the rounds
+        in which the paper's loop finds them.
     face_expansions : int
         Faces expanded ("FE").
     sites_searched : int
@@ -41,6 +40,10 @@ class Statistics:
         in compiled steps.
     search_rounds : tuple of int
         Face expansions whose search through cells took 1, 2, ... rounds.
+    waves : tuple of int
+        Tetrahedra found in each wave of whole steps compiled for a device, which exact decisions on
+        ``scanvec.Device()`` take for 2,000 sites or more that fill space evenly: the first tetrahedra, and
+        then those from a part of the open faces at a time. Empty where the loop goes in the paper's rounds.
     """
 
     iterations: int
@@ -53,6 +56,7 @@ class Statistics:
     ledger: sv.Ledger | None
     cells_opened: int = 0
     search_rounds: tuple[int, ...] = ()
+    waves: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -113,8 +113,8 @@ class Delaunay(Whole[Subset], InSpace):
     neighbors : ndarray of int32 (m, 4)
         The k-th is the tetrahedron opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
     iteration : ndarray of int32 (m,)
-        The iteration, from 1, that found each tetrahedron. By extrapolation in vectors, the paper's; in
-        compiled steps, the wave, of which there are more; by insertion 1 for all.
+        The iteration, from 1, that found each tetrahedron: by extrapolation the paper's round, on any
+        machine; by insertion 1 for all.
     duplicates : ndarray of int32 (k, 2)
         A site that was not used, and the equal site that was.
     stats : Statistics or InsertionStatistics

@@ -100,7 +100,7 @@ def run(n: int, seed: int = SEED, *, brute_force: bool = True) -> Size:
     """Triangulate, and search all faces of every iteration again by brute force."""
     points = points_of(f"rand.{n}", seed)
     machine, left = cm5(), []
-    tri = Delaunay(points, robustness="perturb", machine=machine, callback=lambda p: left.append(p.remaining))
+    tri = Delaunay(points, preset="teng1993", machine=machine, callback=lambda p: left.append(p.remaining))
     assert isinstance(tri.stats, Statistics)
     paper = next(row.seconds for row in RANDOM if row.sites == n)
     loop = machine.ledger.of(*MAIN_LOOP)

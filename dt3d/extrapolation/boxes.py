@@ -117,20 +117,24 @@ def intersection(a: Box[Array], b: Box[Array]) -> Box[Array]:
     )  # fmt: skip
 
 
-def extend(dead: Box[Array], target: Box[Array], steps: Array, closing: Array | None = None) -> Box[Array]:
-    """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions.
+def missing(dead: Box[Array], target: Box[Array]) -> Array:
+    """How many cells the box of both has beyond ``dead``."""
+    both = Box(
+        jnp.minimum(dead.x0, target.x0), jnp.maximum(dead.x1, target.x1),
+        jnp.minimum(dead.y0, target.y0), jnp.maximum(dead.y1, target.y1),
+        jnp.minimum(dead.z0, target.z0), jnp.maximum(dead.z1, target.z1),
+    )  # fmt: skip
+    return volume(both) - volume(dead)
 
-    In a direction in which no more than ``closing`` cells are missing it is grown by all of them.
-    """
 
-    def most(gap: Array) -> Array:
-        return steps if closing is None else jnp.where(gap <= closing, jnp.maximum(closing, steps), steps)
+def extend(dead: Box[Array], target: Box[Array], steps: Array) -> Box[Array]:
+    """``dead`` grown towards ``target`` by at most ``steps`` cells in each of the six directions."""
 
     def low(d: Array, t: Array) -> Array:
-        return jnp.maximum(jnp.minimum(d, t), d - most(d - t))
+        return jnp.maximum(jnp.minimum(d, t), d - steps)
 
     def high(d: Array, t: Array) -> Array:
-        return jnp.minimum(jnp.maximum(d, t), d + most(t - d))
+        return jnp.minimum(jnp.maximum(d, t), d + steps)
 
     return Box(
         low(dead.x0, target.x0), high(dead.x1, target.x1),

@@ -40,6 +40,7 @@ from .boxes import (
     difference_cell,
     empty_box,
     extend,
+    missing,
     volume,
 )
 from .buckets import Buckets, Cells
@@ -208,8 +209,10 @@ def _steps_of(spec: SearchSpec[Q], per_warrant: int, preset_limit: int) -> _Step
         rounds = state.rounds + going
         growth = jnp.left_shift(1, (rounds - 1) // 2)
         steps = jnp.where(rounds < preset_limit, growth, EVERY_CELL)
-        closing = jnp.where(jnp.isfinite(best.high), spec.closing, 0) if spec.closing else None
-        new = extend(dead, target, steps, closing)
+        if spec.closing:
+            few = jnp.isfinite(best.high) & (missing(dead, target) <= spec.closing)
+            steps = jnp.where(few, EVERY_CELL, steps)
+        new = extend(dead, target, steps)
         new = Box(*(jnp.where(going, g, n) for g, n in zip(new, state.new, strict=True)))
         return Search(state.place, state.query, best, dead, new, rounds), done
 

@@ -45,6 +45,7 @@ class Outcome:
     iteration: np.ndarray = field(default_factory=lambda: np.empty(0, np.int32))  # int32 (m,)
     duplicates: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int32))  # int32 (k, 2)
     per_iteration: list[int] = field(default_factory=list)
+    waves: list[int] = field(default_factory=list)  # tetrahedra of each, where compiled steps find them
     counts: Counts = NOTHING_DONE
     inconsistencies: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
@@ -52,7 +53,7 @@ class Outcome:
     @property
     def tetrahedra(self) -> int:
         """How many have been found."""
-        return sum(self.per_iteration)
+        return sum(self.per_iteration or self.waves)
 
     def add(self, counts: Counts) -> None:
         """Count an expansion."""
@@ -67,6 +68,7 @@ class Outcome:
             inconsistencies=self.inconsistencies,
             seconds=self.seconds | {"total": total},
             ledger=ledger,
+            waves=tuple(self.waves),
         )
 
 

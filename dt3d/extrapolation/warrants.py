@@ -47,8 +47,7 @@ class SearchSpec(Generic[Q]):
     trial_bound : (query, k) -> float
         The k-th bound to try, from 0; from some k on inf. What is found does not depend on it.
     closing : int
-        Once there is a candidate, a box grows at once by all cells that it lacks in a direction, if these are
-        no more than so many.
+        Once there is a candidate, a box that lacks no more cells than so many grows by all of them at once.
     """
 
     score: Callable[[Q, Point[Array], Array], tuple[Array, Array]]

@@ -20,7 +20,7 @@ from .expansion import PERTURBED, PerturbedFace
 from .points import Point
 from .warrants import SearchSpec
 
-CLOSING = 2  # cells: gaps that one round closes
+CLOSING = 36  # cells: so few are opened in one round, whatever the gaps
 
 
 def _half_space(query: PerturbedFace, grid: Grid[Array]) -> Box[Array]:

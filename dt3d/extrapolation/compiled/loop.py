@@ -17,6 +17,7 @@ from ..clock import Clock
 from ..consistency import check_progress
 from ..faces import Face
 from ..outcome import Counts, Outcome, Report
+from ..rounds import rounds_of
 from ..warrants import NO_SITE
 from . import stages
 from .cap_search import expand_in_caps
@@ -124,7 +125,7 @@ class Loop:
     def __init__(
         self, machine: sv.Machine, sites: np.ndarray, tetrahedra_per_site: int = TETRAHEDRA_PER_SITE
     ) -> None:
-        self.out = Outcome()
+        self.out, self.sites = Outcome(), sites
         self.clock = Clock(machine)
         with self.clock.phase("buckets"):
             self.cells = in_cells(sites)
@@ -134,7 +135,7 @@ class Loop:
             rows = self.expander.first_tetrahedra(self.out)
             capacity = tetrahedra_per_site * self.layout.capacity
             self.mesh: Mesh = begun_with(rows, capacity, self.layout.wave)
-        self.out.per_iteration.append(len(rows))
+        self.out.waves.append(len(rows))
         # of the queue of fresh faces: those that wait, and its end
         self.fresh = self.tail = 4 * len(rows)
         self.deferred: dict[Stage, Deferred] = {}
@@ -170,7 +171,7 @@ class Loop:
             settled = facts.statuses[FOUND] + facts.statuses[HULL]
             exact = settled if stage in (Stage.TIES, Stage.VECTORS) else 0
             self.out.add(Counts(settled, int(searched), exact))
-            self.out.per_iteration.append(facts.tetrahedra - self.out.tetrahedra)
+            self.out.waves.append(facts.tetrahedra - self.out.tetrahedra)
         self._check(facts)
 
     def _take(self, stage: Stage) -> Batch:
@@ -198,7 +199,7 @@ class Loop:
     def _report(self, report: Report | None) -> None:
         if report is not None:
             waiting = self.fresh + sum(q.waiting for q in self.deferred.values())
-            report(len(self.out.per_iteration), waiting, self.out.tetrahedra)
+            report(len(self.out.waves), waiting, self.out.tetrahedra)
 
     def _is_full(self) -> bool:
         size, wave = len(self.mesh.corners), self.layout.wave
@@ -211,8 +212,8 @@ class Loop:
             corners = np.asarray(self.mesh.corners)[: 4 * m].reshape(-1, 4)
             out.simplices = self.cells.order.astype(np.int32)[corners]
             out.neighbors = np.asarray(self.mesh.neighbors)[: 4 * m].reshape(-1, 4) >> 2
-            numbers = np.arange(1, len(out.per_iteration) + 1, dtype=np.int32)
-            out.iteration = np.repeat(numbers, out.per_iteration)
+        with self.clock.phase("rounds"):
+            out.iteration, out.per_iteration = rounds_of(self.sites, out.simplices, out.neighbors)
         out.seconds = self.clock.seconds
         return out
 
