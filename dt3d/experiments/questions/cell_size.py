@@ -70,7 +70,7 @@ def pairs(largest: int, apart: int) -> Iterator[tuple[int, int]]:
     """
     sizes = [2**k for k in range(1, largest.bit_length())]
     yield from ((s, s) for s in sizes)
-    others = [s for s in sizes if s != PAPER and PAPER <= apart * s and s <= apart * PAPER]
+    others = [s for s in sizes if s != PAPER and apart * s >= PAPER and s <= apart * PAPER]
     if PAPER in sizes:
         yield from ((PAPER, w) for w in others)
         yield from ((s, PAPER) for s in others)

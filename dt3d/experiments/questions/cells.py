@@ -4,12 +4,12 @@ Teng et al. 1993, section 6, expect so: R. A. Dwyer's sequential search opens th
 circumsphere of the tetrahedron found and the face's positive half-space, in an order kept by a queue; theirs
 opens "all cells in the containment box" of these. Here the faces that a run expands are recorded, and each
 cell is counted: those that are needed in Dwyer's sense, computed from the tetrahedra found, and those that
-the two rules of the search open for the same faces in the same grid.
+the two rules of the search open for the same faces in the same grid. Spheres that reach out of the sites' box
+are told from those within it, as they alone can be larger and larger.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -80,11 +80,12 @@ def expanded_faces(points: np.ndarray) -> tuple[Buckets, Expanded]:
 
 
 class Needed(NamedTuple):
-    """Cells of each face with a tetrahedron, int64 (m,)."""
+    """Cells of each face with a tetrahedron, int64 (m,); and bool (m,)."""
 
     cap: np.ndarray  # that meet the tetrahedron's circumsphere and the face's positive half-space
     box: np.ndarray  # of the containment box of these
     sphere: np.ndarray  # of the containment box of the circumsphere
+    inner: np.ndarray  # whether the circumsphere is within the box of all sites
 
 
 def needed(corners: np.ndarray, grid: HostGrid) -> Needed:
@@ -114,7 +115,9 @@ def needed(corners: np.ndarray, grid: HostGrid) -> Needed:
         for p in parts
     ]
     cap, box = (np.concatenate(column) for column in zip(*counts, strict=True))
-    return Needed(cap, box, sphere)
+    reach = radius[:, None]
+    inner = (centre - reach >= np.array(grid.origin)) & (centre + reach <= np.array(grid.high))
+    return Needed(cap, box, sphere, inner.all(axis=1))
 
 
 def _cap(
@@ -162,83 +165,101 @@ def opened(buckets: Buckets, faces: np.ndarray, rule: str) -> Opened:
 
 
 @dataclass(frozen=True)
-class Size:
-    """One random set.
+class Part:
+    """Some of the faces that were expanded.
 
     Attributes
     ----------
-    sites, expansions, hull : int
-        Sites, faces expanded, and those of them that are of the hull.
-    needed : tuple of float
-        `Needed`, on average over faces with a tetrahedron.
-    with_tetrahedron, above_hull : dict of str to Opened
-        By rule, for faces with a tetrahedron and for those of the hull.
+    faces : int
+        How many.
+    cap, box, sphere : float
+        `Needed`, on average; not a number for those of the hull.
+    opened : dict of str to Opened
+        By rule.
     """
 
-    sites: int
-    expansions: int
-    hull: int
-    needed: tuple[float, float, float]
-    with_tetrahedron: dict[str, Opened]
-    above_hull: dict[str, Opened]
+    faces: int
+    cap: float
+    box: float
+    sphere: float
+    opened: dict[str, Opened]
 
     def cells(self, rule: str) -> float:
-        """Cells opened per face with a tetrahedron."""
-        return self.with_tetrahedron[rule].cells / (self.expansions - self.hull)
+        """Cells opened per face."""
+        return self.opened[rule].cells / self.faces
 
     def ratio(self, rule: str) -> float:
         """Cells opened over cells needed."""
-        return self.cells(rule) / self.needed[0]
+        return self.cells(rule) / self.cap
 
-    def all_cells(self, rule: str) -> float:
+
+@dataclass(frozen=True)
+class Size:
+    """One set: the faces that were expanded, by where their spheres are.
+
+    Attributes
+    ----------
+    sites : int
+        How many.
+    inner, rim : Part
+        Faces whose tetrahedron has its circumsphere within the sites' box, and the others with a tetrahedron.
+    hull : Part
+        Those without one.
+    """
+
+    sites: int
+    inner: Part
+    rim: Part
+    hull: Part
+
+    @property
+    def parts(self) -> dict[str, Part]:
+        """All of them, by name."""
+        return {"inner": self.inner, "rim": self.rim, "hull": self.hull}
+
+    @property
+    def expansions(self) -> int:
+        """Faces expanded."""
+        return sum(part.faces for part in self.parts.values())
+
+    def cells(self, rule: str) -> float:
         """Cells opened per face expansion."""
-        return (self.with_tetrahedron[rule].cells + self.above_hull[rule].cells) / self.expansions
+        return sum(part.opened[rule].cells for part in self.parts.values()) / self.expansions
+
+    def searched(self, rule: str) -> float:
+        """Sites searched per face expansion."""
+        return sum(part.opened[rule].sites for part in self.parts.values()) / self.expansions
 
     def soon(self, rule: str) -> float:
         """The share of face expansions that the first two rounds complete."""
-        both = self.with_tetrahedron[rule].rounds, self.above_hull[rule].rounds
-        return sum(sum(rounds[:ROUNDS]) for rounds in both) / self.expansions
+        return sum(sum(part.opened[rule].rounds[:ROUNDS]) for part in self.parts.values()) / self.expansions
+
+    def ratio(self, rule: str) -> float:
+        """Cells opened over cells needed, of all faces with a tetrahedron."""
+        both = self.inner, self.rim
+        return sum(p.opened[rule].cells for p in both) / sum(p.cap * p.faces for p in both)
 
 
-class Group(NamedTuple):
-    """Faces that need ``least`` to twice as many cells, less one; cells needed and opened by all of them."""
-
-    least: int
-    faces: int
-    needed: int
-    opened: dict[str, int]
-
-
-def measure(points: np.ndarray, *, groups: bool = False) -> tuple[Size, list[Group]]:
-    """Count the cells of one set of points (n, 3); and of groups of its faces, if they are asked for."""
+def measure(points: np.ndarray) -> Size:
+    """Count the cells of one set of points (n, 3)."""
     buckets, found = expanded_faces(points)
     assert buckets.cells is not None
-    hull = found.fourth == NO_SITE
-    faces, fourth = found.faces[~hull], found.fourth[~hull]
+    some = found.fourth != NO_SITE
     coordinates = np.stack([v.to_numpy() for v in buckets.sites], axis=1)
-    cells = needed(coordinates[np.column_stack([faces, fourth])], buckets.cells.grid)
-    size = Size(
-        len(points),
-        len(hull),
-        int(hull.sum()),
-        (float(cells.cap.mean()), float(cells.box.mean()), float(cells.sphere.mean())),
-        {rule: opened(buckets, faces, rule) for rule in RULES},
-        {rule: opened(buckets, found.faces[hull], rule) for rule in RULES},
-    )
-    if not groups:
-        return size, []
-    power = np.log2(cells.cap).astype(int)
-    out = []
-    for k in np.unique(power):
-        some = power == k
-        by_rule = {rule: opened(buckets, faces[some], rule).cells for rule in RULES}
-        out.append(Group(2 ** int(k), int(some.sum()), int(cells.cap[some].sum()), by_rule))
-    return size, out
+    cells = needed(coordinates[np.column_stack(found)[some]], buckets.cells.grid)
+    inner = np.zeros(len(some), bool)
+    inner[some] = cells.inner
+
+    def part(chosen: np.ndarray) -> Part:
+        counts = (count[chosen[some]] for count in cells[:3])
+        cap, box, sphere = (float(count.mean()) if len(count) else np.nan for count in counts)
+        by_rule = {rule: opened(buckets, found.faces[chosen], rule) for rule in RULES}
+        return Part(int(chosen.sum()), cap, box, sphere, by_rule)
+
+    return Size(len(points), part(inner), part(some & ~inner), part(~some))
 
 
-def cells(
-    out: Path, console: Console, *, most_sites: int = 16000, seed: int = SEED
-) -> tuple[list[Size], list[Group]]:
+def cells(out: Path, console: Console, *, most_sites: int = 8000, seed: int = SEED) -> list[Size]:
     """Teng et al. 1993, section 6: are extra cells over needed ones bounded? Cells opened and needed, rounds.
 
     For random sets by the search's rule: the paper's boxes, and caps. Writes ``cells.csv``, ``cells.png`` and
@@ -246,109 +267,104 @@ def cells(
     """
     out.mkdir(parents=True, exist_ok=True)
     sizes: list[Size] = []
-    groups: list[Group] = []
-    rows = [row for row in RANDOM if min(FEWEST_SITES, most_sites) <= row.sites <= most_sites]
     with console.status("...") as status:
-        for row in rows:
-            status.update(f"{row.name} ...")
-            size, groups = measure(points_of(row.name, seed), groups=row is rows[-1])
-            sizes.append(size)
+        for row in RANDOM:
+            if min(FEWEST_SITES, most_sites) <= row.sites <= most_sites:
+                status.update(f"{row.name} ...")
+                sizes.append(measure(points_of(row.name, seed)))
     _table(sizes, console)
-    _group_table(sizes[-1], groups, console)
-    _conclude(sizes, groups, console)
-    header = ["sites", "faces", "least_needed", "face_expansions", "needed", "box_of_needed", "box_of_sphere"]
-    header += [f"{rule}_{what}" for rule in RULES for what in ("opened", "over_needed", "two_rounds")]
+    _conclude(sizes, console)
+    header = [
+        "sites",
+        "spheres",
+        "rule",
+        "face_expansions",
+        "needed",
+        "box_of_needed",
+        "box_of_sphere",
+        "opened",
+    ]
+    header += ["over_needed", "sites_searched", "rounds_1", "rounds_2", "rounds_more"]
     lines: list[list[object]] = []
     for s in sizes:
-        ours = [x for rule in RULES for x in (s.cells(rule), s.ratio(rule), s.soon(rule))]
-        lines.append([s.sites, "with a tetrahedron", "", s.expansions - s.hull, *s.needed, *ours])
-        above: list[object] = []
-        for rule in RULES:
-            above += [s.above_hull[rule].cells / max(s.hull, 1), "", ""]
-        lines.append([s.sites, "hull", "", s.hull, "", "", "", *above])
-    for g in groups:
-        of: list[object] = []
-        for rule in RULES:
-            of += [g.opened[rule] / g.faces, g.opened[rule] / g.needed, ""]
-        lines.append([sizes[-1].sites, "group", g.least, g.faces, g.needed / g.faces, "", "", *of])
-    publish(console, out, "cells", header, lines, _draw(sizes, groups))
-    return sizes, groups
+        for name, part in s.parts.items():
+            for rule, done in part.opened.items():
+                means = ["" if np.isnan(x) else x for x in (part.cap, part.box, part.sphere)]
+                ratio = "" if np.isnan(part.cap) else part.ratio(rule)
+                rounds = [sum(done.rounds[:1]), sum(done.rounds[1:2]), sum(done.rounds[2:])]
+                per_face = done.sites / part.faces
+                lines.append(
+                    [s.sites, name, rule, part.faces, *means, part.cells(rule), ratio, per_face, *rounds]
+                )
+    publish(console, out, "cells", header, lines, _draw(sizes))
+    return sizes
 
 
 def _table(sizes: list[Size], console: Console) -> None:
     table = new_table(
-        "Cells per face expansion: needed, and opened by the paper's boxes and by caps",
-        ("sites",),
+        "Cells per face expansion: needed and opened; inner spheres are within the box of all sites",
+        ("sites", "rule"),
         (
-            *("FE", "needed", "their box", "sphere's box"),
-            *(
-                f"{rule}, {what}"
-                for rule in RULES
-                for what in ("opened", "/ needed", "/ sphere's", "all FE", "hull FE")
-            ),
-            *(f"{rule}, 2 rounds %" for rule in RULES),
+            *("inner: needed", "their box", "opened", "/ needed"),
+            *("rim, %", "rim: needed", "their box ", "opened ", "/ needed "),
+            *("hull, %", "hull: opened", "all: opened", "2 rounds, %"),
         ),
     )
     for s in sizes:
-        row = [f"{s.expansions}", *(f"{x:.2f}" for x in s.needed)]
         for rule in RULES:
-            row += [f"{s.cells(rule):.2f}", f"{s.ratio(rule):.2f}", f"{s.cells(rule) / s.needed[2]:.2f}"]
-            row += [f"{s.all_cells(rule):.2f}", f"{s.above_hull[rule].cells / max(s.hull, 1):.1f}"]
-        table.add_row(str(s.sites), *row, *(f"{100 * s.soon(rule):.1f}" for rule in RULES))
+            row = [str(s.sites), rule]
+            for part in (s.inner, s.rim):
+                if part is s.rim:
+                    row.append(f"{100 * part.faces / s.expansions:.1f}")
+                row += [f"{x:.2f}" for x in (part.cap, part.box, part.cells(rule), part.ratio(rule))]
+            row += [f"{100 * s.hull.faces / s.expansions:.1f}", f"{s.hull.cells(rule):.1f}"]
+            table.add_row(*row, f"{s.cells(rule):.2f}", f"{100 * s.soon(rule):.1f}")
     table.show(console)
 
 
-def _group_table(size: Size, groups: list[Group], console: Console) -> None:
-    table = new_table(
-        f"{size.sites} sites: opened over needed, by the cells that a face needs",
-        ("needed",),
-        ("FE", "mean", *RULES),
-    )
-    for g in groups:
-        ratios = (f"{g.opened[rule] / g.needed:.2f}" for rule in RULES)
-        range_ = f"{g.least} to {2 * g.least - 1}" if g.least > 1 else "1"
-        table.add_row(range_, str(g.faces), f"{g.needed / g.faces:.1f}", *ratios)
-    table.show(console)
-
-
-def _conclude(sizes: list[Size], groups: list[Group], console: Console) -> None:
+def _conclude(sizes: list[Size], console: Console) -> None:
     first, last = sizes[0], sizes[-1]
     for rule in RULES:
-        ratios = [g.opened[rule] / g.needed for g in groups]
         console.print(
-            f"{rule}: opened over needed is {first.ratio(rule):.2f} at {first.sites} sites and "
-            f"{last.ratio(rule):.2f} at {last.sites}; by cells needed it is between {min(ratios):.2f} and "
-            f"{max(ratios):.2f} at the latter. There {last.all_cells(rule):.1f} cells are opened per face "
-            f"expansion, those of the hull included (paper: about {PAPER_CELLS}), and "
-            f"{100 * last.soon(rule):.0f} % are completed by {ROUNDS} rounds (paper: most)."
+            f"{rule}: from {first.sites} to {last.sites} sites, opened over needed goes from "
+            f"{first.inner.ratio(rule):.2f} to {last.inner.ratio(rule):.2f} where the sphere is within the "
+            f"box of all sites, from {first.rim.ratio(rule):.2f} to {last.rim.ratio(rule):.2f} where it "
+            f"reaches out, and from {first.ratio(rule):.2f} to {last.ratio(rule):.2f} for both. In the "
+            f"largest set {last.cells(rule):.1f} cells are opened per face expansion of all (paper: about "
+            f"{PAPER_CELLS}), and {100 * last.soon(rule):.0f} % are completed by {ROUNDS} rounds (paper: "
+            "most)."
         )
+    boxes = [(part.box / part.cap) for s in sizes for part in (s.inner, s.rim)]
     console.print(
-        "FE: face expansions. Columns are of those that find a tetrahedron, but where they say all or hull. "
-        "Needed: cells that meet its circumsphere and the half-space. Their box is what the paper says that "
-        "it opens. The paper's 10 is its search/FE over 8 sites per cell. Random sets of some sizes show a "
-        "trend, not a bound; clusters are not tried. Both rules have the paper's cube of cells here, and "
-        "caps opens cells without searching those that cannot hold a better site."
+        f"The containment box of the needed cells, which the paper says that it opens, has {min(boxes):.2f} "
+        f"to {max(boxes):.2f} times as many cells as are needed, inside and at the rim."
+    )
+    console.print(
+        "Needed: cells that meet the circumsphere of the tetrahedron found and the face's half-space. Faces "
+        "of the hull find none. The paper's 10 is its search/FE over 8 sites per cell. Random sets of some "
+        "sizes show a trend, not a bound; clusters are not tried. Both rules have the paper's cube of cells "
+        "here, and caps opens cells without searching those that cannot hold a better site."
     )
 
 
-def _draw(sizes: list[Size], groups: Sequence[Group]) -> Figure:
+def _draw(sizes: list[Size]) -> Figure:
     figure, axes = panels(2, 4.5)
     n = [s.sites for s in sizes]
     for rule, marker in zip(RULES, "so", strict=True):
-        axes[0].plot(n, [s.cells(rule) for s in sizes], f"{marker}-", label=f"opened, {rule}")
-    for k, name in enumerate(("needed: cap", "box of these", "sphere's box")):
-        axes[0].plot(n, [s.needed[k] for s in sizes], "^:", label=name)
+        axes[0].plot(n, [s.cells(rule) for s in sizes], f"{marker}-", label=f"opened, {rule}, all faces")
+        for name, style in (("inner", "-"), ("rim", "--")):
+            ratios = [s.parts[name].ratio(rule) for s in sizes]
+            axes[1].plot(n, ratios, f"{marker}{style}", label=f"{rule}, {name} spheres")
+    axes[0].plot(n, [s.inner.cap for s in sizes], "^:", label="needed, inner spheres")
+    axes[0].plot(n, [s.rim.cap for s in sizes], "v:", label="needed, rim spheres")
     axes[0].axhline(PAPER_CELLS, color="0.6", ls="--", label="paper, about, all faces")
-    axes[0].set(xlabel="sites", ylabel="cells per face expansion", xscale="log")
-    axes[0].set_xticks(n, [str(k) for k in n])
-    axes[0].minorticks_off()
-    axes[0].set_ylim(bottom=0)
-    for rule, marker in zip(RULES, "so", strict=True):
-        mean = [g.needed / g.faces for g in groups]
-        axes[1].plot(mean, [g.opened[rule] / g.needed for g in groups], f"{marker}-", label=rule)
     axes[1].axhline(1, color="0.6", ls=":", label="no cell in vain")
-    axes[1].set(xlabel="cells that a face needs", ylabel="cells opened / needed", xscale="log")
-    axes[1].set_ylim(bottom=0)
+    axes[0].set(xlabel="sites", ylabel="cells per face expansion")
+    axes[1].set(xlabel="sites", ylabel="cells opened / needed")
     for ax in axes:
+        ax.set_xscale("log")
+        ax.set_xticks(n, [str(k) for k in n])
+        ax.minorticks_off()
+        ax.set_ylim(bottom=0)
         ax.legend()
     return figure
