@@ -105,11 +105,10 @@ def faults(points: np.ndarray, simplices: np.ndarray, right: np.ndarray) -> Faul
     Those among ``right``, int (k, 4), the simplices of an exact triangulation, are not looked at.
     """
     known = {tuple(row) for row in np.sort(right, axis=1)}
-    others = np.array(
-        [row for row in np.unique(np.sort(simplices, axis=1), axis=0) if tuple(row) not in known]
-    )
+    rows = np.unique(np.sort(simplices, axis=1), axis=0)
+    others = rows[[tuple(row) not in known for row in rows]]
     wrong, flat, deepest = 0, 0, 0.0
-    for some in np.array_split(others.reshape(-1, 4), max(1, -(-len(others) * len(points) // AT_ONCE))):
+    for some in np.array_split(others, max(1, -(-len(others) * len(points) // AT_ONCE))):
         a, b, c, d = (points[some[:, k]] for k in range(4))
         sign = orient3d(a, b, c, d)
         side = in_sphere(a[:, None], b[:, None], c[:, None], d[:, None], points[None]) * sign[:, None]
@@ -255,10 +254,11 @@ def _conclude(trials: list[Trial], names: Sequence[str], console: Console) -> No
     rounding = float(np.finfo(np.float32).eps) / 2
     console.print(
         "Wrong tetrahedra have a site strictly inside their circumsphere; how far is in units of the set's "
-        f"extent, and single precision rounds the sites themselves, by up to {rounding:.0e} of it. The torus' "
-        "circles are rounded to double precision: exactly, their sites are no longer cospherical, and a "
-        "perturbation decides them anew. It does not show what the paper's eta was, nor what other matrices M "
-        "give: each run has the same one. The paper's torus is not published: ours is of its kind only."
+        f"extent, and single precision rounds the sites themselves, by up to {rounding:.0e} of it. The "
+        "torus' circles are rounded to double precision: exactly, their sites are no longer cospherical, and "
+        "a perturbation decides them anew. It does not show what the paper's eta was, nor what other "
+        "matrices M give: each run has the same one. The paper's torus is not published: ours is of its kind "
+        "only."
     )
 
 
