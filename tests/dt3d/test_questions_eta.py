@@ -59,7 +59,7 @@ def test_a_large_eta_is_wrong_without_a_word():
     assert large.silent
     assert large.ending == "wrong, unnoticed"
     assert large.faults.wrong > 50
-    assert 0 < large.faults.deepest < 2**-4
+    assert 2**-4 < large.faults.deepest < 1  # large spheres magnify how far sites are moved
 
 
 @pytest.mark.slow

@@ -179,7 +179,7 @@ def _print(found: list[Balance], console: Console) -> None:
     table = new_table(
         "The best sizes by machine, and how much longer the paper's 8 and 8 take",
         ("machine",),
-        ("processors", "cell = warrant", "8 and 8, %", "cell", "warrant", "8 and 8, % "),
+        ("processors", "best alike", "8 and 8: % longer", "best cell", "and warrant", "8 and 8: % longer "),
     )
     for b in found:
         table.add_row(
