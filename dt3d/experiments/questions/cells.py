@@ -366,5 +366,5 @@ def _draw(sizes: list[Size]) -> Figure:
         ax.set_xticks(n, [str(k) for k in n])
         ax.minorticks_off()
         ax.set_ylim(bottom=0)
-        ax.legend()
+        ax.legend(loc="lower left")
     return figure

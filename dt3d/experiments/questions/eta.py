@@ -166,7 +166,7 @@ def attempt(points: np.ndarray, name: str, dtype: str, exponent: int, right: np.
 
 
 def eta(
-    out: Path, console: Console, *, most_sites: int = 4000, step: int = 6, seed: int = SEED
+    out: Path, console: Console, *, most_sites: int = 1000, step: int = 6, seed: int = SEED
 ) -> list[Trial]:
     """Teng et al. 1993, section 5.1: which eta, in which precision? Duplicate faces and wrong tetrahedra.
 
@@ -236,20 +236,20 @@ def _conclude(trials: list[Trial], names: Sequence[str], console: Console) -> No
         for name in names:
             exact = [t.exponent for t in runs if t.name == name and t.proven]
             deepest = [t.faults.deepest for t in runs if t.name == name and t.exponent in quiet]
-            depths = f", the deepest site {min(deepest):.1g} to {max(deepest):.1g} inside" if deepest else ""
-            words.append(f"{name} is Delaunay with {_powers(exact)}{depths}")
+            depths = f" (the deepest site up to {max(deepest):.1g} inside otherwise)" if any(deepest) else ""
+            words.append(f"{name} is Delaunay with {_powers(exact, exponents)}{depths}")
         console.print(
-            f"{dtype}: no set has a duplicate face with eta {_powers(quiet)}. By exact predicates "
-            f"{'; '.join(words)} (where no set has a duplicate). {sum(t.silent for t in runs)} of "
+            f"{dtype}: no set has a duplicate face with eta {_powers(quiet, exponents)}. By exact predicates "
+            f"{'; '.join(words)} (depths where no set has a duplicate). {sum(t.silent for t in runs)} of "
             f"{len(runs)} runs are wrong and do not say so. dt3d's default is 2^{_default(dtype)}."
         )
     paper = {name: str(TABLE3[name]) for name in names if name in TABLE3}
     near = {name: [t.exponent for t in _of(trials, name, "float32", exponents) if _like(t)] for name in paper}
-    some = "; ".join(f"{name} ({paper[name]}): {_powers(near[name])}" for name in paper)
+    some = "; ".join(f"{name} ({paper[name]}): {_powers(near[name], exponents)}" for name in paper)
     common = set.intersection(*map(set, near.values())) if near else set()
     console.print(
         f"In single precision the paper's Table 3 is met, to a factor of two, with these eta: {some}. "
-        f"With one eta for all: {_powers(sorted(common))}."
+        f"With one eta for all: {_powers(sorted(common), exponents)}."
     )
     rounding = float(np.finfo(np.float32).eps) / 2
     console.print(
@@ -270,7 +270,10 @@ def _like(trial: Trial) -> bool:
     return int(paper) / 2 <= trial.duplicates <= 2 * int(paper)
 
 
-def _powers(exponents: Sequence[int]) -> str:
+def _powers(exponents: Sequence[int], tried: Sequence[int]) -> str:
+    """These exponents of all that were tried, in order; as a range if none between them is missing."""
+    if len(exponents) > 2 and list(exponents) == [e for e in tried if exponents[0] <= e <= exponents[-1]]:
+        return f"2^{exponents[0]} to 2^{exponents[-1]}"
     return ", ".join(f"2^{e}" for e in exponents) or "none"
 
 
@@ -302,7 +305,7 @@ def _draw(trials: list[Trial], names: Sequence[str]) -> Figure:
         _scale(axes[k], top, given_up=True)
         _scale(axes[k + 2], top, given_up=False)
         axes[k + 2].axvline(_default(dtype), color="0.8", zorder=0, label="dt3d's default")
-    axes[1].legend()
+    axes[1].legend(loc="center left")
     axes[2].legend()
     return figure
 
