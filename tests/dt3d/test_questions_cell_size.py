@@ -56,7 +56,7 @@ def test_eight_sites_are_near_the_balance(tmp_path):
     with open(tmp_path / "cell-size.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == len(found) == 9
-    assert float(rows[2]["CM-5_32"]) == alike[8]
+    assert float(rows[2]["CM5_32"]) == alike[8]
     assert "8 sites per cell and warrant are best of sizes that are alike" in " ".join(
         console.export_text().split()
     )
