@@ -26,6 +26,8 @@ QUICK: dict[str, Option] = {
     "sites": 200,
     "points": 1000,
     "repeats": 1,
+    "largest_cell": 4,
+    "step": 20,
 }
 
 

@@ -40,6 +40,11 @@ def _kohout(name: str, summary: str) -> Callable[..., object]:
     return _Later(".kohout", name, summary)
 
 
+def _question(module: str, summary: str) -> Callable[..., object]:
+    """An experiment on what the papers leave open, in the function that is named as its module."""
+    return _Later(f".questions.{module}", module, summary)
+
+
 EXPERIMENTS: dict[str, Callable[..., object]] = {
     "table1": table1,
     "table2": table2,
@@ -67,6 +72,11 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-interleave": _kohout("interleaving", "Kohout et al. 2004, section 4.2: caches or latency."),
     "kohout-batch-end": _kohout("end_of_batch", "Kohout et al. 2004, section 4.2: where batch ends."),
     "kohout-costs": _kohout("measure_costs", "What virtual time counts with, measured here: a file."),
+    "cell-size": _question(
+        "cell_size", "Are 8 sites per cell, and warrants of 8, the balance? (Teng et al. 1993, 7)"
+    ),
+    "eta": _question("eta", "Which eta, in which precision? (Teng et al. 1993, 5.1)"),
+    "cells": _question("cells", "Are cells opened over cells needed bounded? (Teng et al. 1993, 6)"),
 }
 
 __all__ = [

@@ -41,7 +41,7 @@ def check_progress(out: Outcome, n: int, exact: bool) -> None:
     if out.inconsistencies > max(GIVE_UP_COUNT, GIVE_UP_SHARE * total) or 2 * total > n * n:
         msg = (
             f"{out.inconsistencies} inconsistencies among {total} tetrahedra after "
-            f"{len(out.per_iteration or out.waves)} iterations: sites too close to cospherical for this precision and "
+            f"{len(out.per_iteration)} iterations: sites too close to cospherical for this precision and "
             f"perturbation. Use method='insertion', which is exact; or dtype='float64', or another seed"
         )
         raise InconsistencyError(msg, out.inconsistencies)

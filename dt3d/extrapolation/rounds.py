@@ -76,7 +76,7 @@ def _first_facets(sites, simplices, nearest):
 
 @cached_njit(nogil=True)
 def _by_breadth(neighbors, first, found):
-    """The round of each tetrahedron, entered in ``found``, zeros; and the last round that finds or opens any."""
+    """Enter the round of each tetrahedron in ``found``, zeros; the last round, which may find nothing."""
     queue = np.empty(len(neighbors), np.int32)
     opened_outside = np.zeros((len(neighbors), 4), np.bool_)
     tail = 0
