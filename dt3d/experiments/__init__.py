@@ -40,6 +40,11 @@ def _kohout(name: str, summary: str) -> Callable[..., object]:
     return _Later(".kohout", name, summary)
 
 
+def _question(module: str, summary: str) -> Callable[..., object]:
+    """An experiment on what the papers leave open, in the function that is named as its module."""
+    return _Later(f".questions.{module}", module, summary)
+
+
 EXPERIMENTS: dict[str, Callable[..., object]] = {
     "table1": table1,
     "table2": table2,
@@ -57,6 +62,7 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-subdivision": _kohout("subdivision", "Kohout et al. 2004, Figure 12, up to 16 elements."),
     "kohout-table4": _kohout("table4", "Kohout et al. 2004, Table 4: the methods compared."),
     "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
+    "depth": _question("depth", "Does the choice of first facets bound the depth? (Teng et al. 1993, 6)"),
 }
 
 __all__ = [
