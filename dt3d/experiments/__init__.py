@@ -64,6 +64,9 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
     "depth": _question("depth", "Does the choice of first facets bound the depth? (Teng et al. 1993, 6)"),
     "degrees": _question("degrees", "How many tetrahedra meet in a site? (Teng et al. 1993, 6)"),
+    "weak-scaling": _question(
+        "weak_scaling", "Does it matter that a scan is a primitive? (Teng et al. 1993, 6)"
+    ),
 }
 
 __all__ = [
