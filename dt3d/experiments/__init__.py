@@ -67,6 +67,7 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "weak-scaling": _question(
         "weak_scaling", "Does it matter that a scan is a primitive? (Teng et al. 1993, 6)"
     ),
+    "gain": _question("gain", "Why do 256 nodes gain so little over 128? (Teng et al. 1993, Table 2)"),
 }
 
 __all__ = [

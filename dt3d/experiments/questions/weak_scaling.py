@@ -152,8 +152,8 @@ def _say(rows: list[Weak], console: Console) -> None:
             exclusive = last[sv.EREW_PRAM.name].seconds / last[sv.CRCW_PRAM.name].seconds
             console.print(
                 f"{most:,} sites, {each} per processor: scans that are no primitive multiply the time by "
-                f"{some}; on a CM-5 without its control network by {real:.2f}. Concurrent accesses that are none "
-                f"multiply a PRAM's by {exclusive:.2f}."
+                f"{some}; on a CM-5 without its control network by {real:.2f}. Concurrent accesses that are "
+                f"none multiply a PRAM's by {exclusive:.2f}."
             )
     console.print(
         "'q of log^q' fits seconds by a power of log2(sites); 'time / primitive' is the time over that with "
