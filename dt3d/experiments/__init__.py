@@ -63,6 +63,7 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-table4": _kohout("table4", "Kohout et al. 2004, Table 4: the methods compared."),
     "kohout-crater": _kohout("crater", "Kohout et al. 2004, Figure 13: Crater Lake in relief."),
     "depth": _question("depth", "Does the choice of first facets bound the depth? (Teng et al. 1993, 6)"),
+    "seeds": _question("seeds", "How many first facets suit how many nodes? (Teng et al. 1993, 3)"),
     "degrees": _question("degrees", "How many tetrahedra meet in a site? (Teng et al. 1993, 6)"),
     "weak-scaling": _question(
         "weak_scaling", "Does it matter that a scan is a primitive? (Teng et al. 1993, 6)"

@@ -41,7 +41,7 @@ def test_every_experiment_is_listed_with_a_summary():
         "table1", "table2", "table3", "figure2", "figure3", "balance", "machines", "primitives",
         "kohout-phases", "kohout-queue", "kohout-batch", "kohout-circumcircle", "kohout-arc",
         "kohout-subdivision", "kohout-table4", "kohout-crater",
-        "depth", "degrees", "weak-scaling", "gain",
+        "depth", "seeds", "degrees", "weak-scaling", "gain",
     ]  # fmt: skip
     assert all(function.__doc__ for function in EXPERIMENTS.values())
 

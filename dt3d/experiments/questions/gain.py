@@ -293,8 +293,8 @@ def _say(measured: Loads, model: sv.Model, console: Console) -> None:
     console.print(
         "So a constant overhead, as the paper has it, does not explain its own three times of this set. A "
         "cost that grows with the nodes might, or a single slow run on 256 nodes; a time on 64 or 512 nodes "
-        "would tell, and the paper has none. What this does not show: the C* system's real costs. Few times are "
-        "fitted to, and a cost that fits is not one that was there."
+        "would tell, and the paper has none. What this does not show: the C* system's real costs. Few times "
+        "are fitted to, and a cost that fits is not one that was there."
     )
 
 
