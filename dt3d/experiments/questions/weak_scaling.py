@@ -159,8 +159,8 @@ def _say(rows: list[Weak], console: Console) -> None:
         "'q of log^q' fits seconds by a power of log2(sites); 'time / primitive' is the time over that with "
         "scans across processors of one step, for the largest set. A scan first runs over a processor's own "
         "elements, so that the tree matters less with more sites per processor. What this does not show: "
-        "constants of real machines other than the CM-5's, whose own 387 microseconds to issue a step are as "
-        "fitted to 32 nodes, and a program written for machines with dear scans, which would use fewer."
+        "constants of real machines other than the Connection Machines, of which those of scanvec.CM5 are "
+        "fitted to 32 nodes; and a program written for machines with dear scans, which would use fewer."
     )
 
 
@@ -187,5 +187,7 @@ def _draw(rows: list[Weak]) -> Figure:
     axes[1].set(xlabel="sites", ylabel="seconds / seconds with primitive scans")
     for ax in axes:
         ax.set_xscale("log", base=2)
-        ax.legend(fontsize=8, title="model" if ax is axes[0] else "model, sites per processor")
+    axes[0].legend(fontsize=8, title="model")
+    beside = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}  # the lines leave no corner free
+    axes[1].legend(fontsize=8, title="model, sites per processor", **beside)
     return figure
