@@ -188,6 +188,7 @@ def _draw(rows: list[Weak]) -> Figure:
     for ax in axes:
         ax.set_xscale("log", base=2)
     axes[0].legend(fontsize=8, title="model")
-    beside = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}  # the lines leave no corner free
-    axes[1].legend(fontsize=8, title="model, sites per processor", **beside)
+    # beside the axes, where the lines leave no corner free
+    title = "model, sites per processor"
+    axes[1].legend(fontsize=8, title=title, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
