@@ -54,6 +54,18 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "balance": balance,
     "machines": machines,
     "primitives": primitives,
+    "depth": _question("depth", "Does the choice of first facets bound the depth? (Teng et al. 1993, 6)"),
+    "seeds": _question("seeds", "How many first facets suit how many nodes? (Teng et al. 1993, 3)"),
+    "degrees": _question("degrees", "How many tetrahedra meet in a site? (Teng et al. 1993, 6)"),
+    "cell-size": _question(
+        "cell_size", "Are 8 sites per cell, and warrants of 8, the balance? (Teng et al. 1993, 7)"
+    ),
+    "eta": _question("eta", "Which eta, in which precision? (Teng et al. 1993, 5.1)"),
+    "cells": _question("cells", "Are cells opened over cells needed bounded? (Teng et al. 1993, 6)"),
+    "weak-scaling": _question(
+        "weak_scaling", "Does it matter that a scan is a primitive? (Teng et al. 1993, 6)"
+    ),
+    "gain": _question("gain", "Why do 256 nodes gain so little over 128? (Teng et al. 1993, Table 2)"),
     "kohout-phases": _kohout("phases", "Kohout et al. 2004, Figure 1: time by phase."),
     "kohout-queue": _kohout("queue", "Kohout et al. 2004, Table 1: the best length of the queue."),
     "kohout-batch": _kohout("batch", "Kohout et al. 2004, Figures 4 and 5, Table 2: the batch method."),
@@ -72,11 +84,6 @@ EXPERIMENTS: dict[str, Callable[..., object]] = {
     "kohout-interleave": _kohout("interleaving", "Kohout et al. 2004, section 4.2: caches or latency."),
     "kohout-batch-end": _kohout("end_of_batch", "Kohout et al. 2004, section 4.2: where batch ends."),
     "kohout-costs": _kohout("measure_costs", "What virtual time counts with, measured here: a file."),
-    "cell-size": _question(
-        "cell_size", "Are 8 sites per cell, and warrants of 8, the balance? (Teng et al. 1993, 7)"
-    ),
-    "eta": _question("eta", "Which eta, in which precision? (Teng et al. 1993, 5.1)"),
-    "cells": _question("cells", "Are cells opened over cells needed bounded? (Teng et al. 1993, 6)"),
 }
 
 __all__ = [

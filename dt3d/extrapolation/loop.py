@@ -43,6 +43,7 @@ def extrapolate(
     mode: Callable[[Buckets], Expander],
     report: Report | None = None,
     options: SearchOptions = DEFAULT_SEARCH,
+    first: Callable[[Buckets], Face[sv.Vector]] | None = None,
 ) -> Outcome:
     """Triangulate distinct sites (n, 3).
 
@@ -60,6 +61,8 @@ def extrapolate(
         Called after every iteration.
     options : SearchOptions
         Of cells and their search.
+    first : callable, optional
+        Distinct Delaunay facets to begin with, in the order of the buckets; those of every site by default.
 
     Raises
     ------
@@ -73,7 +76,7 @@ def extrapolate(
         buckets = bucket(Point(*(machine.vector(np.ascontiguousarray(c)) for c in sites.T)), options)
     with clock.phase("first facets"):
         # "for each vertex find the first Delaunay facet by gift wrapping"
-        facets = initial_facets(buckets)
+        facets = (first or initial_facets)(buckets)
     expander = mode(buckets)
 
     dead = no_dead_faces(machine)

@@ -39,10 +39,10 @@ def is_png(path):
 def test_every_experiment_is_listed_with_a_summary():
     assert list(EXPERIMENTS) == [
         "table1", "table2", "table3", "figure2", "figure3", "balance", "machines", "primitives",
+        "depth", "seeds", "degrees", "cell-size", "eta", "cells", "weak-scaling", "gain",
         "kohout-phases", "kohout-queue", "kohout-batch", "kohout-circumcircle", "kohout-preset",
         "kohout-arc", "kohout-subdivision", "kohout-table4", "kohout-crater", "kohout-wrong",
-        "kohout-helping", "kohout-interleave", "kohout-batch-end", "kohout-costs", "cell-size", "eta",
-        "cells",
+        "kohout-helping", "kohout-interleave", "kohout-batch-end", "kohout-costs",
     ]  # fmt: skip
     assert all(function.__doc__ for function in EXPERIMENTS.values())
 
