@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from inspect import getdoc, signature
 from pathlib import Path
 from time import perf_counter
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from .._status import one_line
@@ -43,18 +44,25 @@ class Ended:
 
 def summary_of(experiment: Experiment) -> str:
     """The first paragraph of its docstring, as a line."""
-    return " ".join((inspect.getdoc(experiment) or "").partition("\n\n")[0].split())
+    return " ".join((getdoc(experiment) or "").partition("\n\n")[0].split())
 
 
 def quick_options(experiment: Experiment) -> dict[str, Option]:
     """The small sizes of `QUICK`, for those parameters that the experiment has."""
-    return {name: size for name, size in QUICK.items() if name in inspect.signature(experiment).parameters}
+    return {name: size for name, size in QUICK.items() if name in signature(experiment).parameters}
 
 
 def run_all(
-    experiments: Mapping[str, Experiment], out: Path, console: Console, *, quick: bool = False
+    experiments: Mapping[str, Experiment],
+    out: Path,
+    console: Console,
+    *,
+    quick: bool = False,
+    options: Mapping[str, Option] = MappingProxyType({}),
 ) -> list[Ended]:
     """Run all, go on after one that fails, and print a table of how each ended.
+
+    ``options`` are for those experiments that have them.
 
     Ctrl-C ends all of it, as does a reader of the output that is gone.
     """
@@ -67,7 +75,9 @@ def run_all(
             markup=False,
             soft_wrap=True,
         )
-        ended.append(_run(name, experiment, out, console, quick_options(experiment) if quick else {}))
+        chosen = quick_options(experiment) if quick else {}
+        chosen |= {key: value for key, value in options.items() if key in signature(experiment).parameters}
+        ended.append(_run(name, experiment, out, console, chosen))
         if ended[-1].error:
             console.print(f"{name} failed: {ended[-1].error}", markup=False, soft_wrap=True)
     table = Sheet(

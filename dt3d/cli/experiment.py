@@ -39,13 +39,13 @@ def experiment(
         console.print(f"{ALL:{width}s} All of these, one after the other.", markup=False, soft_wrap=True)
         return
     if name == ALL:
-        if options:
-            msg = f"experiment all takes --out and --quick only; got {', '.join(options)}"
+        if set(options) - {"costs"}:
+            msg = f"experiment all takes --out, --quick and --costs only; got {', '.join(options)}"
             raise ValueError(msg)
         out.mkdir(parents=True, exist_ok=True)
         for known in EXPERIMENTS:
             check_writable(out / f"{known}.csv")
-        if any(ended.error for ended in run_all(EXPERIMENTS, out, console, quick=quick)):
+        if any(ended.error for ended in run_all(EXPERIMENTS, out, console, quick=quick, options=options)):
             raise Verdict(EXPERIMENT_FAILED)
         return
     if name not in EXPERIMENTS:

@@ -97,7 +97,7 @@ def test_the_status_is_1_if_one_failed(tmp_path, listed, capsys):
 def test_words_that_all_does_not_take(tmp_path, listed, capsys):
     listed(good=good)
     assert cli.main(["experiment", "all", "--out", str(tmp_path), "--seed", "1"]) == 2
-    assert "experiment all takes --out and --quick only; got seed" in capsys.readouterr().err
+    assert "experiment all takes --out, --quick and --costs only; got seed" in capsys.readouterr().err
     assert not (tmp_path / "good.csv").exists()
 
 
