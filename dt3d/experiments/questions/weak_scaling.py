@@ -93,7 +93,7 @@ def exponent(sites: list[int], seconds: list[float]) -> float:
     return float(np.polyfit(np.log(np.log2(sites)), np.log(seconds), 1)[0])
 
 
-def weak_scaling(out: Path, console: Console, *, most_sites: int = 4096, seed: int = SEED) -> list[Weak]:
+def weak_scaling(out: Path, console: Console, *, most_sites: int = 1024, seed: int = SEED) -> list[Weak]:
     """Teng et al. 1993, section 6: sites per processor fixed; what primitive scans are worth, by model.
 
     Random sets of 64 sites and more, main loop, the paper's preset. Writes ``weak-scaling.csv``,
