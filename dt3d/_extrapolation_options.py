@@ -9,7 +9,7 @@ from typing import Literal, TypedDict, get_args
 import numpy as np
 import numpy.typing as npt
 
-from .extrapolation import SearchOptions
+from .extrapolation import PAPER_SEARCH, SearchOptions
 
 Preset = Literal["teng1993"]
 Search = Literal["caps", "boxes"]
@@ -83,13 +83,14 @@ def search_options(options: ExtrapolationOptions, method: str, *, exact: bool) -
     if search == "boxes" and cells != "uniform":
         msg = f"search='boxes' opens boxes of cells; it goes with cells='uniform', got {cells!r}"
         raise ValueError(msg)
+    limit = PAPER_SEARCH.preset_limit if search == "boxes" else SearchOptions.preset_limit
     per_cell = _count(options, "sites_per_cell", SearchOptions.sites_per_cell)
     return SearchOptions(
         whole_boxes=search == "boxes",
         uniform_cells=cells == "uniform",
         sites_per_cell=per_cell,
         sites_per_warrant=_count(options, "sites_per_warrant", per_cell),
-        preset_limit=_count(options, "preset_limit", SearchOptions.preset_limit),
+        preset_limit=_count(options, "preset_limit", limit),
         eta=_eta(options.get("eta")),
     )
 

@@ -96,8 +96,8 @@ class Delaunay(Whole[Subset], InSpace):
         Sites of a cell on average, 8 by default (section 7), and the most that a warrant searches, by default
         as many.
     preset_limit : int, optional
-        Rounds of a search after which all cells that are left are opened, 8 by default. The paper's preset
-        limit is not published.
+        Rounds of a search after which all cells that are left are opened: 3 with search="boxes", 8 otherwise.
+        The paper's preset limit is not published.
     eta : float, optional
         Of the perturbation I + eta M (section 5.1), with ``robustness="perturb"``. By default 2^-30 in double
         and 2^-12 in single precision; the paper's is not published.

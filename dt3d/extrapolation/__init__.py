@@ -8,7 +8,7 @@ from .expansion import Perturbed
 from .loop import extrapolate
 from .outcome import Outcome
 from .perturbation import normalise, perturb
-from .search_options import SearchOptions
+from .search_options import PAPER_SEARCH, SearchOptions
 from .triangulation import triangulate
 
 __all__ = ["Outcome", "Perturbed", "SearchOptions", "extrapolate", "normalise", "perturb", "triangulate"]

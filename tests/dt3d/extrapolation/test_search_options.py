@@ -15,6 +15,9 @@ def test_the_paper_s_values():
     assert PAPER_SEARCH.whole_boxes
     assert PAPER_SEARCH.uniform_cells
     assert not SearchOptions().whole_boxes
+    assert (PAPER_SEARCH.preset_limit, SearchOptions().preset_limit) == (3, 8)
+    rounds = [dt3d.Delaunay(CLUSTERS, preset="teng1993", preset_limit=k).stats.search_rounds for k in (3, 8)]
+    assert dt3d.Delaunay(CLUSTERS, preset="teng1993").stats.search_rounds == rounds[0] != rounds[1]
 
 
 @pytest.mark.parametrize(
