@@ -11,4 +11,7 @@ from .perturbation import normalise, perturb
 from .search_options import PAPER_SEARCH, SearchOptions
 from .triangulation import triangulate
 
-__all__ = ["Outcome", "Perturbed", "SearchOptions", "extrapolate", "normalise", "perturb", "triangulate"]
+__all__ = [
+    "PAPER_SEARCH", "Outcome", "Perturbed", "SearchOptions", "extrapolate", "normalise", "perturb",
+    "triangulate",
+]  # fmt: skip

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 SITES_PER_CELL = 8  # on average: "the number we obtained", section 7
-# After so many rounds all cells that are left are opened at once (section 4.2, which does not say how many). In
-# the paper's mode so few that Table 2's times are met best: every round of the few faces left costs its steps.
+# After so many rounds all cells that are left are opened at once (section 4.2, which does not say how many).
+# In the paper's mode as many as meet Table 2's times best: every round of the few faces left costs its steps.
 PRESET_LIMIT, PAPER_PRESET_LIMIT = 8, 3
 
 

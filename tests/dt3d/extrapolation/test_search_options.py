@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import dt3d
+from dt3d._extrapolation_options import search_options
 from dt3d.extrapolation.search_options import PAPER_SEARCH, SITES_PER_CELL, SearchOptions
 
 POINTS = np.random.default_rng(7).random((400, 3))
@@ -16,8 +17,12 @@ def test_the_paper_s_values():
     assert PAPER_SEARCH.uniform_cells
     assert not SearchOptions().whole_boxes
     assert (PAPER_SEARCH.preset_limit, SearchOptions().preset_limit) == (3, 8)
-    rounds = [dt3d.Delaunay(CLUSTERS, preset="teng1993", preset_limit=k).stats.search_rounds for k in (3, 8)]
-    assert dt3d.Delaunay(CLUSTERS, preset="teng1993").stats.search_rounds == rounds[0] != rounds[1]
+    for given, want in (
+        ({"preset": "teng1993"}, PAPER_SEARCH),
+        ({"search": "boxes"}, PAPER_SEARCH),
+        ({}, SearchOptions()),
+    ):
+        assert search_options(given, "extrapolation", exact=False) == want
 
 
 @pytest.mark.parametrize(
