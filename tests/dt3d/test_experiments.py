@@ -60,7 +60,7 @@ def test_calibration_meets_the_times_that_it_is_given(small_ledgers):
     for row in RANDOM[:3]:
         assert ledgers[row.name].under(model).seconds == pytest.approx(row.seconds, rel=0.25)
     assert {n: c.origin for n, c in model.constants.items()} == {
-        "issue": "calibrated", "element": "calibrated", "route": "calibrated", "packet": "sourced",
+        "issue": "calibrated", "element": "estimate", "route": "calibrated", "packet": "sourced",
         "packet_bytes": "sourced", "combine": "sourced",
     }  # fmt: skip
     assert "3 random sets, rand.125 to rand.500, on 32 nodes" in model.constants["issue"].source

@@ -111,7 +111,7 @@ Tallies = Mapping[str, Mapping[int, Tally]]
 
 
 def refit(extra: str | None, tallies: Tallies, left_out: str = "") -> Refit:
-    """Fit issue, element, route and one more cost to the times of Tables 1 and 2.
+    """Fit issue, route and one more cost to the times of Tables 1 and 2.
 
     Table 2 is of another machine. Its times are taken over that of 32 nodes, times Table 1's of the same set.
     ``left_out`` is a set whose time in Table 1 is not fitted to.
