@@ -45,12 +45,7 @@ CM5 = Model(
     {
         "issue": Constant(5.09e-4, "s a step", CALIBRATED, TABLE1),
         "element": Constant(
-            5e-7,
-            "s an operation and element",
-            ESTIMATE,
-            "16 cycles at 32 MHz, loads and a store among thems an operation and element",
-            ESTIMATE,
-            "16 cycles at 32 MHz: two loads, an operation, a store",
+            5e-7, "s an operation and element", ESTIMATE, "16 cycles at 32 MHz, of loads and a store, too"
         ),
         "route": Constant(2.76e-5, "s an element of a get or send", CALIBRATED, TABLE1),
         "packet": Constant(4e-6, "s a packet", SOURCED, "Culler et al. 1993: 2 us at either end"),
