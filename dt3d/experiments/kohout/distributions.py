@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 METHODS = ("batch", "circumcircle", "optimistic")
 ELEMENTS = (2, 4, 8)
-WAYS = {"paper": PAPER, "default": OURS}
+WAYS = {"published": PAPER, "default": OURS}
 
 
 def _of_paper(method: str, n: int, name: str) -> Row:
@@ -75,7 +75,7 @@ def preset(
 
     def draw(axes: Axes) -> None:
         places = [i + 0.4 * (i // len(METHODS)) for i in range(len(rows))]
-        columns = ["paper measured", "default measured", *(f"paper virtual {k}" for k in ELEMENTS)]
+        columns = ["published measured", "default measured", *(f"published virtual {k}" for k in ELEMENTS)]
         for k, column in enumerate(columns):
             axes.bar([x + 0.17 * (k - 2) for x in places], [row[column] for row in rows], 0.16, label=column)
         ticks = [
@@ -100,14 +100,14 @@ def _note(rows: list[Row], source: str, repeats: int) -> str:
     for method, (two, four) in BETWEEN_DISTRIBUTIONS.items():
         for elements, of_paper in ((2, two), (4, four)):
             values = [
-                row[f"paper virtual {elements}"]
+                row[f"published virtual {elements}"]
                 for row in rows
                 if row["method"] == method and row["set"] != "arc"
             ]
             spread = 100 * (max(values) / min(values) - 1) if values else 0.0
             parts.append(f"{method} on {elements}: {spread:.0f} % (paper {of_paper:g} %)")
     return (
-        "'paper': preset='kohout2004'; 'default': interleaved searches, shared parts, a head start. "
+        "'published': preset='kohout2004'; 'default': interleaved searches, shared parts, a head start. "
         "'interleaving alone': one thread, eight searches, over one search; 'threads alone': the rest. "
         f"Largest difference between distributions, without the arc, virtual: {', '.join(parts)}. "
         f"{note_of(source, repeats)}"

@@ -64,6 +64,7 @@ def wrong_triangles(
         )
         axes.set(xscale="log", xlabel="elements", ylabel="swaps left undone per million triangles")
         axes.set_yscale("symlog", linthresh=1.0)
+        axes.set_ylim(bottom=0)
         axes.set_xticks(counts, [str(k) for k in counts])
         axes.minorticks_off()
         axes.figure.legend(loc="outside right upper")
