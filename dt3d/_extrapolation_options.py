@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Mapping
 from typing import Literal, TypedDict, get_args
 
 import numpy as np
@@ -27,17 +25,6 @@ class ExtrapolationOptions(TypedDict, total=False):
     sites_per_warrant: int | None
     preset_limit: int | None
     eta: float | None
-
-
-def check_names(options: Mapping[str, object]) -> None:
-    """Raise TypeError for a keyword that there is not."""
-    known = ExtrapolationOptions.__annotations__
-    for name in options:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            meant = f"; did you mean {near[0]!r}?" if near else f"; there are also {', '.join(known)}"
-            msg = f"dt3d.Delaunay has no option {name!r}{meant}"
-            raise TypeError(msg)
 
 
 def chosen_preset(options: ExtrapolationOptions) -> Preset | None:

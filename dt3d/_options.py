@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import difflib
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -139,6 +140,16 @@ def check_plane_options(
         msg = "subdivision='curve' goes with order='brio', got order='random'"
         raise ValueError(msg)
     return word
+
+
+def check_names(options: Mapping[str, object], known: Collection[str], of: str) -> None:
+    """Raise TypeError for a keyword that is not known, and say of which function."""
+    for name in options:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            meant = f"; did you mean {near[0]!r}?" if near else f"; there are also {', '.join(known)}"
+            msg = f"{of} has no option {name!r}{meant}"
+            raise TypeError(msg)
 
 
 def is_count(number: object, least: int) -> bool:

@@ -12,9 +12,9 @@ import numpy.typing as npt
 
 import scanvec as sv
 
-from ._extrapolation_options import ExtrapolationOptions, check_names, chosen_preset, search_options
+from ._extrapolation_options import ExtrapolationOptions, chosen_preset, search_options
 from ._input import check_points, check_seed, exactly_scaled, word_of
-from ._options import Method, Robustness, check_space_options
+from ._options import Method, Robustness, check_names, check_space_options
 from ._results import Names
 from ._stats import InsertionStatistics, Progress, Statistics
 from ._triangulation import InSpace, Part, Whole
@@ -174,7 +174,7 @@ class Delaunay(Whole[Subset], InSpace):
     ) -> None:
         begun = time.perf_counter()
         seed = check_seed(seed)
-        check_names(options)
+        check_names(options, ExtrapolationOptions.__annotations__, "dt3d.Delaunay")
         if chosen_preset(options) is not None:
             robustness = "perturb"
         dtype = options.get("dtype")

@@ -10,12 +10,12 @@ import numpy.typing as npt
 
 from .._input import check_points, exactly_scaled
 from .._numba.announce import announce_compilation
-from .._options import Location, Order, PlaneMethod, Subdivision, check_plane_options
+from .._options import Location, Order, PlaneMethod, Subdivision, check_names, check_plane_options
 from .._results import Names
 from .._triangulation import InPlane, Part, Whole
 from .configuration import configured
 from .driver import triangulate
-from .options import PlaneOptions, check_names, check_values
+from .options import PlaneOptions, check_values
 from .statistics import Statistics
 from .subset import Subset
 
@@ -136,7 +136,7 @@ class Delaunay(Whole[Subset], InPlane):
         **options: Unpack[PlaneOptions],
     ) -> None:
         begun = time.perf_counter()
-        check_names(options)
+        check_names(options, PlaneOptions.__annotations__, "threaded2d.Delaunay")
         chosen = order or ("brio" if options.get("preset") is None else "random")
         word = check_plane_options(method, threads, chosen, location, subdivision, seed)
         check_values(options, method, location)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Mapping
 from typing import Literal, TypedDict, get_args
 
 from .._options import is_count
@@ -48,17 +46,6 @@ KOHOUT2004: PlaneOptions = {
     "head_start": False,
     "helping": False,
 }
-
-
-def check_names(options: Mapping[str, object]) -> None:
-    """Raise TypeError for a keyword that there is not."""
-    known = PlaneOptions.__annotations__
-    for name in options:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            meant = f"; did you mean {near[0]!r}?" if near else f"; there are also {', '.join(known)}"
-            msg = f"threaded2d.Delaunay has no option {name!r}{meant}"
-            raise TypeError(msg)
 
 
 def check_values(options: PlaneOptions, method: str, location: str) -> None:
