@@ -149,7 +149,7 @@ class Ledger:
         >>> cm = sv.Simulated(processors=4, model=sv.SCAN)
         >>> v = cm.iota(8) + 1
         >>> round(cm.ledger.under(sv.CM5).seconds, 6)
-        0.000779
+        0.00102
         """
         return Ledger(self.entries, self.processors, check_model(model), self.handled)
 

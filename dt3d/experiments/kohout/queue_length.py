@@ -38,7 +38,7 @@ def queue(
             row[str(length)] = given.alone / given.simulated(options, elements).seconds
         row["best"] = max(LENGTHS, key=lambda length: row[str(length)])
         row["paper best"] = best
-        row["loss at paper's, %"] = (
+        row["loss at paper's %"] = (
             None if best is None else 100 * (1 - row[str(best)] / row[str(row["best"])])
         )
         rows.append(row)

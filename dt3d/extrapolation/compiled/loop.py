@@ -17,7 +17,6 @@ from ..clock import Clock
 from ..consistency import check_progress
 from ..faces import Face
 from ..outcome import Counts, Outcome, Report
-from ..rounds import rounds_of
 from ..warrants import NO_SITE
 from . import stages
 from .cap_search import expand_in_caps
@@ -212,6 +211,8 @@ class Loop:
             corners = np.asarray(self.mesh.corners)[: 4 * m].reshape(-1, 4)
             out.simplices = self.cells.order.astype(np.int32)[corners]
             out.neighbors = np.asarray(self.mesh.neighbors)[: 4 * m].reshape(-1, 4) >> 2
+        from ..rounds import rounds_of  # loads numba, which takes a second, when it is needed
+
         with self.clock.phase("rounds"):
             out.iteration, out.per_iteration = rounds_of(self.sites, out.simplices, out.neighbors)
         out.seconds = self.clock.seconds
