@@ -46,6 +46,8 @@ def test_experiment(name, tmp_path):
     assert (tmp_path / f"kohout-{name}.png").read_bytes()[:4] == b"\x89PNG"
     assert (tmp_path / f"kohout-{name}.pdf").read_bytes()[:4] == b"%PDF"
     assert "Kohout et al. 2004" in text or name == "costs"
+    if name == "batch-end":
+        assert all(1 < row["best"] < 1.05 * row["bound"] for row in rows)
     virtual = [v for row in rows for c, v in row.items() if "virtual" in c and v is not None]
     assert all(0.1 < v < 16 for v in virtual)
 

@@ -167,6 +167,7 @@ def _simulate_critical(mesh, schedule, elements, costs):
         insert(mesh, e, t, q, 0)
         change = costs.node * (3 + 2 * (state[e, c.FLIPS] - before))
         state[e, c.INSERTED] += 1
+        state[e, c.VISITED] += visited
         state[e, c.NEXT] += 1
         entered = clock[e] + costs.visit * visited
         if entered < free:

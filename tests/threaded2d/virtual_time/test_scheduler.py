@@ -43,6 +43,7 @@ def test_every_set_ends(name):
 def test_one_element_takes_as_long_as_the_sequential_method():
     points = uniform(2000)
     alone = simulate(points, options("sequential", 1), 1, COSTS)
+    assert alone.seconds > COSTS.visit * sum(alone.visited) > 0
     critical = simulate(points, options("pessimistic", 1), 1, COSTS)
     assert critical.seconds == pytest.approx(alone.seconds)
     for method in ("circumcircle", "optimistic"):
