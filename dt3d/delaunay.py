@@ -44,7 +44,7 @@ class Delaunay(Whole[Subset], InSpace):
     robustness="perturb")``                   uneven
     ``threaded2d.Delaunay(points2d)``         in the plane: threads that change one mesh in place
     ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
-    method="batch", order="random")``         methods have names, too
+    method="batch", preset="kohout2004")``    methods have names, too
     ========================================  ===========================================================
 
     Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same

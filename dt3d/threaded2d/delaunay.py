@@ -147,7 +147,7 @@ class Delaunay(Whole[Subset], InPlane):
             len(sites),
             method=method,
             threads=threads,
-            order=order,
+            order=chosen,
             location=location,
             subdivision=subdivision,
             seed=word,

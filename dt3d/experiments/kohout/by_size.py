@@ -23,6 +23,15 @@ SIZES = "1000,5000,10000,50000,100000"
 REAL = {"crater"}  # sets that are not generated
 
 
+PAPER_STYLES = {"paper P 410, 2": "x:", "paper PE 6400, 2": "+:"}
+
+
+def _on_four(method: str, data: str) -> str:
+    """What the paper has on four processors, as a sentence."""
+    low, high = ON_FOUR[method][data in REAL]
+    return f"The paper on four processors: {low} to {high} for {'real' if data in REAL else 'uniform'} data."
+
+
 def _of_paper(paper: Mapping[int, tuple[float | None, ...]], n: int, data: str) -> Row:
     known = paper.get(n) if data == "uniform" else None
     return {
@@ -54,10 +63,9 @@ def batch(
         row |= {"measured 3:1": here.median, "quartiles": here.quartiles}
         rows.append(row | _of_paper(BATCH, n, data))
     styles = {f"{k}:1 on 2": "o-" for k in (2, 3, 4)} | {f"{k}:1 on 4": "s--" for k in range(2, 7)}
-    styles |= {"measured 3:1": "^-", "paper P 410, 2": "x:", "paper PE 6400, 2": "+:"}
-    (low, high) = ON_FOUR["batch"][data in REAL]
+    styles |= {"measured 3:1": "^-"} | PAPER_STYLES
     note = (
-        f"The paper on four processors: {low} to {high} for {'real' if data in REAL else 'uniform'} data. "
+        f"{_on_four('batch', data)} "
         f"On four this package takes {searching_threads(5000, 4)}:1 from 5,000 points on, as section 4.2 "
         f"says. {note_of(table.source, repeats)} Costs: {described(table.of(data, counts[-1]))}."
     )
@@ -87,11 +95,9 @@ def circumcircle(
         here = given.measured("circumcircle", threads_for("circumcircle", available_cores()), repeats)
         row |= {"measured": here.median, "quartiles": here.quartiles}
         rows.append(row | _of_paper(CIRCUMCIRCLE, n, data))
-    styles = {f"virtual {k}": "o-" for k in (2, 4, 8)} | {"measured": "^-"}
-    styles |= {"paper P 410, 2": "x:", "paper PE 6400, 2": "+:"}
-    (low, high) = ON_FOUR["circumcircle"][data in REAL]
+    styles = {f"virtual {k}": "o-" for k in (2, 4, 8)} | {"measured": "^-"} | PAPER_STYLES
     note = (
-        f"The paper on four processors: {low} to {high} for {'real' if data in REAL else 'uniform'} data. "
+        f"{_on_four('circumcircle', data)} "
         f"{note_of(table.source, repeats)} Costs: {described(table.of(data, counts[-1]))}."
     )
     title = f"Kohout et al. 2004, Fig. 7, Table 3: circum-circle as published, {data} points"

@@ -151,9 +151,9 @@ def measured_costs(name: str, points: np.ndarray, interleave: int = 1, repeats: 
     return Measured(name, len(points), interleave, costs, float(np.median(sort)), float(np.median(select)))
 
 
-def crater_points(n: int, seed: int = 0) -> np.ndarray:
-    """n points of Crater Lake at random, seen from above, float64 (n, 2); all if there are no more."""
-    sites = crater_lake()[:, :2]
+def crater_sites(n: int, seed: int = 0) -> np.ndarray:
+    """n points of Crater Lake at random, with their heights, float64 (n, 3); all if there are no more."""
+    sites = crater_lake()
     if n >= len(sites):
         return sites
     chosen: np.ndarray = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:n])]
@@ -169,7 +169,7 @@ def points_of(name: str, n: int, seed: int = 0) -> np.ndarray:
         If there is no such distribution.
     """
     if name == "crater":
-        return crater_points(n, seed)
+        return crater_sites(n, seed)[:, :2]
     if name not in sets.DISTRIBUTIONS:
         msg = f"there is no distribution {name!r}; there are {', '.join(sets.DISTRIBUTIONS)} and crater"
         raise ValueError(msg)

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...samples import crater_lake
 from ...threaded2d import Delaunay
 from . import relief
 from .busy import warn_if_busy
-from .costs import SHIPPED_NAME, chosen_costs, described
+from .costs import SHIPPED_NAME, chosen_costs, crater_sites, described
 from .paper import CRATER
 from .report import Row, publish
 from .runs import SpeedupSet, note_of
@@ -36,9 +35,7 @@ def crater(
     triangles are those of the circum-circle method by four threads, which begin with slabs and take sites
     from each other.
     """
-    sites = crater_lake()
-    if points < len(sites):
-        sites = sites[np.sort(np.random.default_rng(seed).permutation(len(sites))[:points])]
+    sites = crater_sites(points, seed)
     warn_if_busy(console)
     table = chosen_costs(costs, [("crater", points, 1)])
     given = SpeedupSet("crater", sites[:, :2], table)

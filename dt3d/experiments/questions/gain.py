@@ -17,11 +17,10 @@ import numpy as np
 
 import scanvec as sv
 
-from ...delaunay import Delaunay
 from .. import calibration
 from .._output import new_table, off, panels, publish
 from ..paper import PROCESSORS, RANDOM, TABLE2
-from ..runs import MAIN_LOOP, SEED, cm5, paper_row, points_of
+from ..runs import SEED, cm5, measure, paper_row, points_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,9 +42,7 @@ def loads(
     for row in RANDOM:
         if row.sites <= most_sites:
             on_set(row.name)
-            machine = cm5(also=NODES[1:])
-            Delaunay(points_of(row.name, seed), preset="teng1993", machine=machine)
-            out[row.name] = {p: ledger.of(*MAIN_LOOP) for p, ledger in machine.ledgers.items()}
+            out[row.name] = measure(points_of(row.name, seed), cm5(also=NODES[1:])).ledgers
     return out
 
 

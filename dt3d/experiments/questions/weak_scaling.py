@@ -16,10 +16,9 @@ import numpy as np
 
 import scanvec as sv
 
-from ...delaunay import Delaunay
 from .. import sets
 from .._output import new_table, panels, publish
-from ..runs import MAIN_LOOP, SEED
+from ..runs import SEED, measure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -70,10 +69,10 @@ def run(n: int, seed: int = SEED) -> list[Weak]:
     processors = {n // each: each for each in EACH if n // each > 1}
     first, *others = processors
     machine = sv.Simulated(first, model=sv.EREW_PRAM, also=others)
-    Delaunay(sets.rand(n, seed), preset="teng1993", machine=machine)
+    ledgers = measure(sets.rand(n, seed), machine).ledgers
     rows = []
     for p, each in processors.items():
-        ledger = machine.ledgers[p].of(*MAIN_LOOP)
+        ledger = ledgers[p]
         models = (*MODELS, replace(cm5_by_messages(p), name=WITHOUT))
         rows += [Weak(n, p, each, model.name, *_seconds(ledger, model)) for model in models]
     return rows
