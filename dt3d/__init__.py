@@ -1,4 +1,4 @@
-"""Exact 3D Delaunay triangulations, by multithreaded insertion or by the algorithm of Teng et al.
+"""Exact Delaunay triangulations in space and in the plane, in place of `scipy.spatial.Delaunay`.
 
 `help(dt3d.Delaunay)` has a table of which call runs which engine.
 

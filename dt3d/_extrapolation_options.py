@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypedDict, get_args
+from typing import TYPE_CHECKING, Literal, TypedDict, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from .extrapolation import PAPER_SEARCH, SearchOptions
+if TYPE_CHECKING:
+    from .extrapolation import SearchOptions
 
 Preset = Literal["teng1993"]
 Search = Literal["caps", "boxes"]
@@ -42,19 +43,25 @@ def chosen_preset(options: ExtrapolationOptions) -> Preset | None:
     return preset
 
 
-def search_options(options: ExtrapolationOptions, method: str, *, exact: bool) -> SearchOptions:
+def check_without_extrapolation(options: ExtrapolationOptions, method: str) -> None:
+    """Raise a ValueError if there is an option that only extrapolation has; dtype is checked elsewhere."""
+    for name, value in options.items():
+        if value is not None and name in ExtrapolationOptions.__annotations__ and name != "dtype":
+            msg = f"{name}={value!r} goes with method='extrapolation', or machine=..., got method={method!r}"
+            raise ValueError(msg)
+
+
+def search_options(options: ExtrapolationOptions, *, exact: bool) -> SearchOptions:
     """How extrapolation searches.
 
     Raises
     ------
     ValueError
-        If a value is out of range, or does not go with the method or with exact decisions.
+        If a value is out of range, or does not go with exact decisions.
     """
-    given = {name: value for name, value in options.items() if value is not None and name != "dtype"}
-    if given and method != "extrapolation":
-        name, value = next(iter(given.items()))
-        msg = f"{name}={value!r} goes with method='extrapolation', or machine=..., got method={method!r}"
-        raise ValueError(msg)
+    from .extrapolation import PAPER_SEARCH, SearchOptions  # and with it JAX
+
+    given = {name: value for name, value in options.items() if value is not None}
     paper = chosen_preset(options) is not None
     search = options.get("search") or ("boxes" if paper else "caps")
     cells = options.get("cells") or ("uniform" if paper or search == "boxes" else "auto")

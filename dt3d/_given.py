@@ -13,7 +13,7 @@ from ._exact_conversion import to_float64
 AXES = "xyz"
 
 
-def as_numbers(given: object, name: str, dimension: int) -> tuple[np.ndarray, str]:
+def as_numbers(given: object, name: str, dimension: int | None) -> tuple[np.ndarray, str]:
     """The array that was given, not yet float64 and of any shape, and an expression for it in messages.
 
     Parameters
@@ -24,8 +24,8 @@ def as_numbers(given: object, name: str, dimension: int) -> tuple[np.ndarray, st
         a mesh of PyVista has.
     name : str
         What the caller calls it.
-    dimension : 2 or 3
-        How many coordinates are wanted.
+    dimension : 2, 3 or None
+        How many coordinates are wanted; None: as many as there are, two or three.
 
     Raises
     ------
@@ -43,11 +43,11 @@ def as_numbers(given: object, name: str, dimension: int) -> tuple[np.ndarray, st
     if isinstance(given, list | tuple):
         return _rows(given, name, dimension), f"np.asarray({name})"
     if isinstance(given, str | bytes | PathLike):
-        reader = "read_points(path)" if dimension == 3 else "read_points(path, dimension=2)"
+        reader = "read_points(path, dimension=2)" if dimension == 2 else "read_points(path)"
         msg = f"{name} must be numbers, got {given!r}; for a file pass dt3d.files.{reader}"
         raise ValueError(msg)
     if isinstance(given, Mapping):
-        columns = ", ".join(f"{name}[{key!r}]" for key in list(given)[:dimension])
+        columns = ", ".join(f"{name}[{key!r}]" for key in list(given)[: dimension or 3])
         msg = f"{name} must be an array, got a {type(given).__name__}; pass np.column_stack([{columns}])"
         raise ValueError(msg)
     if hasattr(given, "to_numpy") and hasattr(given, "columns") and len(np.shape(cast(Any, given))) == 2:
@@ -74,7 +74,7 @@ def _made(given: object, name: str) -> np.ndarray:
     return array
 
 
-def _rows(given: Sequence[object], name: str, dimension: int) -> np.ndarray:
+def _rows(given: Sequence[object], name: str, dimension: int | None) -> np.ndarray:
     if any(isinstance(row, np.ma.MaskedArray) for row in given):  # np.asarray would drop their masks
         return np.asarray(_unmasked(np.ma.array(given), f"np.ma.array({name})"))
     try:
@@ -86,8 +86,8 @@ def _rows(given: Sequence[object], name: str, dimension: int) -> np.ndarray:
         odd = next((i for i, length in enumerate(lengths) if length != lengths[0]), None)
         where = str(error) if odd is None else f"row {odd} has {lengths[odd]} numbers, row 0 has {lengths[0]}"
         msg = (
-            f"{name} must be an array of shape (n, {dimension}); the rows that came do not have one length: "
-            f"{where}"
+            f"{name} must be an array of shape (n, {dimension or '2 or 3'}); the rows that came do not have "
+            f"one length: {where}"
         )
         raise ValueError(msg) from None
 
@@ -112,10 +112,11 @@ def _unmasked(given: np.ma.MaskedArray, name: str) -> np.ndarray:
     return given.data
 
 
-def _fields(given: np.ndarray, name: str, dimension: int) -> tuple[np.ndarray, str]:
+def _fields(given: np.ndarray, name: str, asked: int | None) -> tuple[np.ndarray, str]:
     """The columns x, y (and z) of a structured array (n,)."""
     fields = given.dtype.names or ()
     called = {field.lower(): field for field in fields}
+    dimension = asked or (2 if {"x", "y"} <= called.keys() and "z" not in called else 3)
     wanted = [called[axis] for axis in AXES[:dimension] if axis in called]
     if len(wanted) < dimension or given.ndim != 1:
         found = ", ".join(fields)
@@ -139,17 +140,19 @@ def _fields(given: np.ndarray, name: str, dimension: int) -> tuple[np.ndarray, s
 def _table(
     given: Any,  # a table of any library
     name: str,
-    dimension: int,
+    asked: int | None,
 ) -> np.ndarray:
     """The columns of a table, each converted by itself: together they could be rounded."""
     labels = list(given.columns)
+    dimension = asked or (2 if len(labels) == 2 else 3)
     if len(labels) != dimension:
         names = {str(label).lower(): label for label in labels}
         wanted = [names[axis] for axis in AXES[:dimension] if axis in names]
         cure = f"; pass {name}[{wanted!r}]" if len(wanted) == dimension else ""
         if dimension == 3 and len(labels) == 2:
-            cure = "; for points in the plane use dt3d.threaded2d.Delaunay"
-        msg = f"{name} must have {dimension} columns, got {len(labels)}: {', '.join(map(str, labels))}{cure}"
+            cure = "; for points in the plane use dt3d.Delaunay"
+        count, came = dimension if asked else "2 or 3", ", ".join(map(str, labels))
+        msg = f"{name} must have {count} columns, got {len(labels)}: {came}{cure}"
         raise ValueError(msg)
     columns = []
     for k, label in enumerate(labels):

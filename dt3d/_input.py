@@ -13,8 +13,10 @@ from ._given import as_numbers
 MOST_SITES = 2**25
 
 
-def check_points(points: npt.ArrayLike, dimension: int = 3) -> np.ndarray:
-    """The points as a float64 array of shape (n, dimension) of its own, in C order.
+def check_points(points: npt.ArrayLike, dimension: int | None = None) -> np.ndarray:
+    """The points as a float64 array of its own, in C order, of shape (n, dimension).
+
+    Without a dimension it is what the points have, 2 or 3.
 
     Raises
     ------
@@ -23,10 +25,10 @@ def check_points(points: npt.ArrayLike, dimension: int = 3) -> np.ndarray:
         places, not finite, or too many. The message says what to do about it.
     """
     given, name = as_numbers(points, "points", dimension)
-    if given.ndim != 2 or given.shape[1] != dimension:
+    if given.ndim != 2 or given.shape[1] not in ((2, 3) if dimension is None else (dimension,)):
         raise _shape_error(given, name, dimension)
     if not len(given):
-        least = {2: "three", 3: "four"}[dimension]
+        least = {2: "three", 3: "four"}[given.shape[1]]
         msg = f"points are empty; a triangulation needs at least {least} sites"
         raise ValueError(msg)
     if len(given) > MOST_SITES:
@@ -41,10 +43,12 @@ def check_points(points: npt.ArrayLike, dimension: int = 3) -> np.ndarray:
 def check_queries(xi: npt.ArrayLike, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
     """Points to be located, as float64 (k, dimension), and the shape of the answers. There may be any number.
 
+    They need not be finite, as in SciPy.
+
     Raises
     ------
     ValueError
-        If they are not finite, real and of shape (..., dimension).
+        If they are not real and of shape (..., dimension).
     """
     given, name = as_numbers(xi, "xi", dimension)
     if not given.ndim or given.shape[-1] != dimension:
@@ -53,7 +57,6 @@ def check_queries(xi: npt.ArrayLike, dimension: int) -> tuple[np.ndarray, tuple[
             msg += f"; it looks transposed: pass {name}.T"
         raise ValueError(msg)
     array = to_float64(given, name)
-    _check_finite(array, "xi", _of_numbers(given, name))
     return array.reshape(-1, dimension), given.shape[:-1]
 
 
@@ -74,22 +77,38 @@ def _check_finite(array: np.ndarray, what: str, whole: str) -> None:
     raise ValueError(msg)
 
 
-def _shape_error(given: np.ndarray, name: str, dimension: int) -> ValueError:
+def _shape_error(given: np.ndarray, name: str, dimension: int | None) -> ValueError:
     """The error for points of a wrong shape, with the way out where one is likely."""
     shape, cure = given.shape, ""
+    served = (2, 3) if dimension is None else (dimension,)
     if given.dtype.kind in "US" and not given.ndim:
         cure = "; for a file pass dt3d.files.read_points(path)"
-    elif len(shape) == 2 and shape[0] == dimension and shape[1] > dimension:
+    elif len(shape) == 2 and shape[0] in served and shape[1] > max(served):
         cure = f"; it looks transposed: pass {name}.T"
     elif len(shape) == 2 and dimension == 3 and shape[1] == 2:
-        cure = "; for points in the plane use dt3d.threaded2d.Delaunay"
+        cure = "; for points in the plane use dt3d.Delaunay"
     elif len(shape) == 2 and dimension == 2 and shape[1] == 3:
         cure = f"; for points in space use dt3d.Delaunay, without the third coordinate pass {name}[:, :2]"
-    elif len(shape) == 2 and shape[1] > dimension:
-        cure = f"; if the first columns are the coordinates, pass {name}[:, :{dimension}]"
-    elif (len(shape) > 2 and shape[-1] == dimension) or (len(shape) == 1 and given.size % dimension == 0):
-        cure = f"; pass {name}.reshape(-1, {dimension})"
-    return ValueError(f"points must have shape (n, {dimension}), got {shape}{cure}")
+    elif len(shape) == 2 and shape[1] > max(served):
+        first = f"{name}[:, :{max(served)}]"
+        cure = (
+            f"; if the first columns are the coordinates, pass {first}. For more dimensions there is "
+            "scipy.spatial.Delaunay"
+        )
+    elif len(shape) == 2:
+        cure = "; sites on a line have no simplices to find: np.sort orders them"
+    else:
+        fits = [
+            d
+            for d in served
+            if (len(shape) > 2 and shape[-1] == d) or (len(shape) == 1 and shape[0] % d == 0)
+        ]
+        if given.size and len(fits) == 1:
+            cure = f"; pass {name}.reshape(-1, {fits[0]})"
+        elif given.size and fits:
+            cure = f"; pass {name}.reshape(-1, 2) or {name}.reshape(-1, 3)"
+    wanted = " or ".join(f"(n, {d})" for d in served)
+    return ValueError(f"points must have shape {wanted}, got {shape}{cure}")
 
 
 def check_seed(seed: object) -> int:
@@ -161,8 +180,8 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
     )
     if dimension == 2:
         msg += (
-            "; for points in the plane, given by two coordinates, there is dt3d.threaded2d.Delaunay: of "
-            "points[:, :2], or of other two columns where these are on a line"
+            "; for a triangulation in the plane pass two coordinates, points[:, :2], or other two columns "
+            "where these are on a line"
         )
     return DegenerateInputError(msg, dimension)
 

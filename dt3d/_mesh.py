@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from ._optional import optional
-from ._triangulation import Part, Whole
+from .subset import Subset
 
 if TYPE_CHECKING:
     import pyvista
 
     from .delaunay import Delaunay
-    from .subset import Subset
 
 
 class Tetrahedra(Protocol):
@@ -59,9 +58,9 @@ def to_pyvista(tri: Tetrahedra) -> pyvista.UnstructuredGrid:
     return grid
 
 
-def surface(tri: Whole[Any] | Part) -> np.ndarray:  # whatever its parts are
+def surface(tri: Delaunay | Subset) -> np.ndarray:
     """The facets of the hull, int (h, 3); of a part of a triangulation, those of its boundary."""
-    return tri.boundary if isinstance(tri, Part) else tri.convex_hull
+    return tri.boundary if isinstance(tri, Subset) else tri.convex_hull
 
 
 def hull_to_pyvista(tri: Delaunay | Subset) -> pyvista.PolyData:

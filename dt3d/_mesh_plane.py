@@ -20,10 +20,10 @@ from ._paths import check_target, written_aside
 if TYPE_CHECKING:
     import pyvista
 
-    from ._triangulation import InPlane
+    from ._triangulation import Triangulation
 
 
-def write_plane_mesh(tri: InPlane, path: str | Path) -> None:
+def write_plane_mesh(tri: Triangulation, path: str | Path) -> None:
     """Write a triangulation in the plane.
 
     =============== ==========================================================================================
@@ -35,7 +35,7 @@ def write_plane_mesh(tri: InPlane, path: str | Path) -> None:
 
     Parameters
     ----------
-    tri : threaded2d.Delaunay or threaded2d.Subset
+    tri : threaded2d.Delaunay or Subset
         What is written.
     path : str or Path
         A file that exists is replaced, when the new one is whole.
@@ -55,61 +55,61 @@ def check_plane_path(path: str | Path) -> Path:
     return check_target(path, WRITERS, "write triangles to")
 
 
-def draw_plane(tri: InPlane, path: Path) -> None:
+def draw_plane(tri: Triangulation, path: Path) -> None:
     """Draw the triangles, coloured by the threads that made them; `plot.FORMATS` has the extensions."""
     figure = tri.plot().get_figure(root=True)
     assert figure is not None
     save_figure(figure, path, dpi=200)
 
 
-def _raised(tri: InPlane) -> np.ndarray:
+def _raised(tri: Triangulation) -> np.ndarray:
     """The points with z = 0, float64 (n, 3)."""
     return np.column_stack([tri.points, np.zeros(len(tri.points))])
 
 
-def _write_npz(tri: InPlane, path: Path) -> None:
+def _write_npz(tri: Triangulation, path: Path) -> None:
     with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
         np.savez_compressed(
             file, points=tri.points, triangles=tri.triangles, neighbors=tri.neighbors, thread=tri.thread
         )
 
 
-def _grid(tri: InPlane) -> pyvista.UnstructuredGrid:
+def _grid(tri: Triangulation) -> pyvista.UnstructuredGrid:
     pv = optional("pyvista")
     grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     grid.cell_data["thread"] = tri.thread
     return grid
 
 
-def _write_vtu(tri: InPlane, path: Path) -> None:
+def _write_vtu(tri: Triangulation, path: Path) -> None:
     grid = _grid(tri)  # says what to install where VTK is missing
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
     save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
 
 
-def _write_vtp(tri: InPlane, path: Path) -> None:
+def _write_vtp(tri: Triangulation, path: Path) -> None:
     surface = tri.to_pyvista()
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
     save_xml(vtkXMLPolyDataWriter(), surface, path)
 
 
-def _write_vtk(tri: InPlane, path: Path) -> None:
+def _write_vtk(tri: Triangulation, path: Path) -> None:
     save_legacy(_grid(tri), path)
 
 
-def _write_gmsh(tri: InPlane, path: Path) -> None:
+def _write_gmsh(tri: Triangulation, path: Path) -> None:
     meshio = optional("meshio")
     meshio.gmsh.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}), "4.1")
 
 
-def _write_medit(tri: InPlane, path: Path) -> None:
+def _write_medit(tri: Triangulation, path: Path) -> None:
     meshio = optional("meshio")
     meshio.medit.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}))
 
 
-def _write_obj(tri: InPlane, path: Path) -> None:
+def _write_obj(tri: Triangulation, path: Path) -> None:
     text = io.StringIO()
     text.write("# triangulation in the plane by dt3d\n")
     text.writelines(f"v {x!r} {y!r} 0\n" for x, y in tri.points.tolist())
@@ -117,7 +117,7 @@ def _write_obj(tri: InPlane, path: Path) -> None:
     path.write_text(text.getvalue(), encoding="ascii")
 
 
-WRITERS: dict[str, Callable[[InPlane, Path], None]] = {
+WRITERS: dict[str, Callable[[Triangulation, Path], None]] = {
     ".npz": _write_npz,
     ".vtu": _write_vtu,
     ".vtk": _write_vtk,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
+from ._extrapolation_options import ExtrapolationOptions, check_without_extrapolation, chosen_preset
 from ._input import check_seed, word_of
 
 if TYPE_CHECKING:
@@ -26,28 +27,35 @@ Subdivision = Literal["random", "x-slabs", "distance", "curve"]
 MOST_THREADS_IN_PLANE = 64
 
 
+class SpaceOptions(ExtrapolationOptions, total=False):
+    """Keywords of `dt3d.Delaunay` that points in space have; None is as good as leaving one out."""
+
+    robustness: Robustness
+    machine: sv.Machine | None
+    callback: Callable[[Progress], object] | None
+
+
 def check_space_options(
-    method: str,
-    robustness: str,
-    machine: sv.Machine | None,
-    threads: int | None,
-    callback: Callable[[Progress], object] | None,
-    dtype: npt.DTypeLike | None,
-) -> tuple[str, np.dtype]:
-    """The method and the working precision that `dt3d.Delaunay` has to take.
+    method: str, threads: int | None, options: SpaceOptions
+) -> tuple[str, np.dtype, bool]:
+    """The method that `dt3d.Delaunay` has to take, the working precision, and whether decisions are exact.
 
     Raises
     ------
     ValueError
         If an option is unknown, or does not go with the others.
     """
-    working = _working_precision(dtype)
+    working = _working_precision(options.get("dtype"))
+    callback, machine = options.get("callback"), options.get("machine")
+    robustness = "perturb" if chosen_preset(options) is not None else options.get("robustness") or "exact"
     if callback is not None and not callable(callback):
         msg = f"callback must be callable, got {callback!r}"
         raise ValueError(msg)
     *first, last = map(repr, get_args(Method))
     if method not in get_args(Method):
         msg = f"method must be {', '.join(first)} or {last}, got {method!r}"
+        if method in get_args(PlaneMethod):
+            msg += "; that is one of dt3d.threaded2d.Delaunay"
         raise ValueError(msg)
     if robustness not in get_args(Robustness):
         msg = f"robustness must be 'exact' or 'perturb', got {robustness!r}"
@@ -68,7 +76,23 @@ def check_space_options(
     if method == "auto":
         method = "extrapolation" if only_extrapolation else "insertion"
     _check_threads(threads, method)
-    return method, working
+    if method != "extrapolation":
+        check_without_extrapolation(options, method)
+    return method, working, robustness == "exact"
+
+
+def check_of_plane(method: str, options: SpaceOptions) -> None:
+    """Raise a ValueError if an option that is given does not go with points in the plane."""
+    given = {"method": None if method in ("auto", "insertion") else method, **options}
+    if given.get("robustness") == "exact":
+        del given["robustness"]
+    for name, value in given.items():
+        if value is not None:
+            msg = (
+                f"{name}={value!r} goes with points in space, and these have two coordinates; leave it out. "
+                f"dt3d.threaded2d.Delaunay has the options of the plane"
+            )
+            raise ValueError(msg)
 
 
 def _is_machine(machine: object) -> bool:

@@ -6,6 +6,8 @@ this package or from a pickle, and cannot change afterwards.
 
 from __future__ import annotations
 
+import inspect
+from functools import cached_property
 from typing import Any, ClassVar, NoReturn, Self
 
 import numpy as np
@@ -36,7 +38,18 @@ class Result:
     _others: ClassVar[Names] = ()
     """Names of what it has to have beside them."""
     _derived: ClassVar[Names] = ()
-    """Names of what is computed when first asked for, and is in no pickle."""
+    """Names of all properties: computed when asked for, and in no pickle."""
+
+    def __init_subclass__(cls) -> None:
+        """Note the properties of the class and of those it is made from."""
+        super().__init_subclass__()
+        kinds = (property, cached_property)
+        cls._derived = tuple(n for n in dir(cls) if isinstance(inspect.getattr_static(cls, n), kinds))
+
+    @classmethod
+    def _arrays_of(cls, state: dict[str, object]) -> Names:
+        """The names of the arrays that a result with these attributes has to have."""
+        return cls._arrays
 
     def _keep(self, **results: object) -> None:
         """Set results, once they are what they will be; arrays become read-only."""
@@ -56,7 +69,7 @@ class Result:
         super().__delattr__(name)
 
     def _refuse(self, name: str, what: str) -> None:
-        if name not in self._arrays + self._others + self._derived:
+        if name not in self._arrays_of(self.__dict__) + self._others + self._derived:
             return  # an attribute of the user's own
         cure = f"tri.{name}.copy() is an array to change"
         if name == "points":
@@ -80,11 +93,12 @@ class Result:
         ValueError
             If something is missing, of a wrong kind or shape, or an index is out of range.
         """
-        missing = set(self._arrays + self._others) - set(state)
+        names = self._arrays_of(state)
+        missing = set(names + self._others) - set(state)
         if missing:
             damaged(f"there is no {', '.join(sorted(missing))}")
         arrays: dict[str, np.ndarray] = {}
-        for name in self._arrays:
+        for name in names:
             array = state[name]
             if not isinstance(array, np.ndarray) or not array.ndim:
                 damaged(f"{name} is no array")

@@ -10,80 +10,90 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 import numpy as np
 import numpy.typing as npt
 
-import scanvec as sv
-
-from ._extrapolation_options import ExtrapolationOptions, chosen_preset, search_options
+from ._extrapolation_options import search_options
 from ._input import check_points, check_seed, exactly_scaled, word_of
-from ._options import Method, Robustness, check_names, check_space_options
+from ._options import Method, SpaceOptions, check_names, check_of_plane, check_space_options
 from ._results import Names
+from ._scipy_members import SciPyMembers
+from ._scipy_options import check_scipy_options
 from ._stats import InsertionStatistics, Progress, Statistics
-from ._triangulation import InSpace, Part, Whole
-from .extrapolation import Outcome
-from .extrapolation import triangulate as extrapolate
-from .subset import Subset
 
 if TYPE_CHECKING:
+    import scanvec as sv
+
     from ._proof import Verification
+    from .extrapolation import Outcome
+    from .subset import Subset
+    from .threaded2d.driver import Outcome as PlaneOutcome
+    from .threaded2d.statistics import Statistics as PlaneStatistics
 
 
-class Delaunay(Whole[Subset], InSpace):
-    """The Delaunay triangulation of points in space.
+class Delaunay(SciPyMembers):
+    """The Delaunay triangulation of points in the plane or in space, exact.
+
+    It has all members of `scipy.spatial.Delaunay`, with the same names, shapes, dtypes and meaning, and takes
+    its place.
 
     Which call runs what:
 
     ========================================  ===========================================================
     call                                      engine
     ========================================  ===========================================================
-    ``Delaunay(points)``                      insertion by threads on this CPU
-    ``Delaunay(points, method=E)``            extrapolation on ``scanvec.Device()``: whole steps compiled,
-                                              from 2,000 sites that fill space evenly; else vectors
-    ``Delaunay(points, machine=S)``           extrapolation in vectors, exact search; a ledger of its steps
-    ``Delaunay(points, machine=S,             the paper: Teng, Sullivan, Beichl and Puppo (1993), with their
-    preset="teng1993")``                      boxes, random perturbation and consistency check
-    ``Delaunay(points, machine=S,             the same with cells that are pruned, and a tree where sites are
-    robustness="perturb")``                   uneven
-    ``threaded2d.Delaunay(points2d)``         in the plane: threads that change one mesh in place
+    ``Delaunay(points)``                      insertion by threads on this CPU, in the plane and in space
+    ``Delaunay(points, method=E)``            in space: extrapolation on ``scanvec.Device()``, whole steps
+                                              compiled, from 2,000 sites that fill space evenly; else vectors
+    ``Delaunay(points, machine=S)``           in space: extrapolation in vectors, exact search; a ledger of
+                                              its steps
+    ``Delaunay(points, machine=S,             in space: the paper of Teng, Sullivan, Beichl and Puppo (1993),
+    preset="teng1993")``                      their boxes, random perturbation and consistency check
+    ``Delaunay(points, machine=S,             in space: the same with cells that are pruned, and a tree where
+    robustness="perturb")``                   sites are uneven
     ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
     method="batch", preset="kohout2004")``    methods have names, too
     ========================================  ===========================================================
 
     Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same
-    tetrahedra.
+    simplices.
 
     The result stays as it was computed: its arrays are read-only, and its attributes cannot be assigned. Take
-    a copy of an array to change it, and `subset` for a part of the tetrahedra.
+    a copy of an array to change it, and `subset` for a part of the simplices. Below, d is 2 or 3.
 
     Parameters
     ----------
-    points : array_like (n, 3)
-        Sites: real, finite, at least four that do not lie on a plane.
+    points : array_like (n, 2) or (n, 3)
+        Sites: real, finite, at least d + 1 that do not lie on a plane, in the plane on a line.
+    furthest_site, incremental : bool
+        As in SciPy's class, False only.
+    qhull_options : str, optional
+        As in SciPy's class. Options that say how Qhull rounds, scales and merges change nothing here; those
+        that ask for another result raise a ValueError.
     method : "auto", "insertion" or "extrapolation"
-        "insertion" inserts the sites one by one on a CPU. "extrapolation" is the data-parallel algorithm of
-        Teng et al. on a scanvec machine. "auto" inserts, unless ``machine`` or ``robustness="perturb"`` is
-        given, which only extrapolation has. Extrapolation compares every face with every site where
-        thousands of sites lie on one sphere.
-    robustness : "exact" or "perturb"
-        "exact": all decisions are right. A symbolic perturbation decides cospherical sites, and the result
-        does not depend on the method, the machine or the order of the sites. "perturb", by extrapolation
-        only: the paper's random linear perturbation of about 1e-9 decides cospherical sites, in floating
-        point, and a check of the topology counts inconsistencies.
-    machine : scanvec.Machine, optional
-        Where extrapolation runs: ``scanvec.Device()`` by default, or ``scanvec.Simulated(processors=P)``. All
-        machines give the same tetrahedra.
+        "insertion" inserts the sites one by one on a CPU. "extrapolation", in space, is the data-parallel
+        algorithm of Teng et al. on a scanvec machine. "auto" inserts, unless ``machine`` or
+        ``robustness="perturb"`` is given, which only extrapolation has. Extrapolation compares every face
+        with every site where thousands of sites lie on one sphere.
     threads : int, optional
         The most threads that insert at the same time; never more than the cores that this process may use.
         By default as many as cores, fewer for small sets. The result does not depend on it.
-    dtype : float64 or float32, optional
-        Working precision, float64 by default. Single precision is for experiments with
-        ``robustness="perturb"``: it decides less.
     seed : int
         Not negative, of any size: for the perturbation, or for the order of insertion, which does not change
         the result.
+    robustness : "exact" or "perturb"
+        In space. "exact": all decisions are right. A symbolic perturbation decides cospherical sites, and the
+        result does not depend on the method, the machine or the order of the sites. "perturb", by
+        extrapolation only: the paper's random linear perturbation of about 1e-9 decides cospherical sites, in
+        floating point, and a check of the topology counts inconsistencies.
+    machine : scanvec.Machine, optional
+        In space: where extrapolation runs, ``scanvec.Device()`` by default, or
+        ``scanvec.Simulated(processors=P)``. All machines give the same tetrahedra.
+    dtype : float64 or float32, optional
+        Working precision, float64 by default. Single precision is for experiments with
+        ``robustness="perturb"``: it decides less.
     callback : callable, optional
-        Called with a `Progress` after every iteration of an extrapolation, or every 100,000 sites inserted.
-        An exception that it raises ends the triangulation.
+        In space: called with a `Progress` after every iteration of an extrapolation, or every 100,000 sites
+        inserted. An exception that it raises ends the triangulation.
     preset : "teng1993", optional
-        All that is the paper's, by extrapolation: ``robustness="perturb"``, ``search="boxes"`` and
+        In space: all that is the paper's, by extrapolation: ``robustness="perturb"``, ``search="boxes"`` and
         ``cells="uniform"``. Options below that are given beside it hold.
     search : "caps" or "boxes", optional
         Section 4.2: which cells a face expansion opens. "boxes", with ``robustness="perturb"`` only: all in
@@ -106,30 +116,32 @@ class Delaunay(Whole[Subset], InSpace):
 
     Attributes
     ----------
-    points : ndarray of float64 (n, 3)
+    points : ndarray of float64 (n, d)
         The sites as given.
-    simplices : ndarray of int32 (m, 4)
-        Tetrahedra, each positively oriented: det[b-a, c-a, d-a] > 0.
-    neighbors : ndarray of int32 (m, 4)
-        The k-th is the tetrahedron opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
-    iteration : ndarray of int32 (m,)
-        The iteration, from 1, that found each tetrahedron: by extrapolation the paper's round, on any
-        machine; by insertion 1 for all.
+    simplices : ndarray of int32 (m, d + 1)
+        Positively oriented: tetrahedra with det[b-a, c-a, d-a] > 0, or triangles, counter-clockwise.
+    neighbors : ndarray of int32 (m, d + 1)
+        The k-th is the simplex opposite the k-th vertex, `dt3d.OUTSIDE` (-1) beyond the hull.
     duplicates : ndarray of int32 (k, 2)
         A site that was not used, and the equal site that was.
-    stats : Statistics or InsertionStatistics
-        Counts and times; each method has counts of its own.
+    iteration : ndarray of int32 (m,)
+        In space: the iteration, from 1, that found each tetrahedron. By extrapolation the paper's round, on
+        any machine; by insertion 1 for all.
+    thread, inserted_by : ndarray of int16 (m,) and (n,)
+        In the plane: the thread that made each triangle, and that inserted each site (-1 for duplicates).
+    stats : Statistics, InsertionStatistics or threaded2d.Statistics
+        Counts and times; each engine has counts of its own.
 
     Raises
     ------
     ValueError
-        For input that is not finite, real and of shape (n, 3), and for options that are out of range or do
-        not go together; by extrapolation also
-        where coordinates differ by less than 2^-200 of the greatest one.
+        For input that is not finite, real and of shape (n, 2) or (n, 3), and for options that are out of
+        range or do not go together; by extrapolation also where coordinates differ by less than 2^-200 of the
+        greatest one.
     TypeError
         For an option that there is not.
     DegenerateInputError
-        If all sites lie on a plane, a line or a point.
+        If all sites lie on a plane (in space), a line or a point.
     InconsistencyError
         If the perturbation does not decide enough for the method to finish.
     MemoryError
@@ -151,37 +163,41 @@ class Delaunay(Whole[Subset], InSpace):
     >>> tri = dt3d.Delaunay(cube)
     >>> tri.simplices.shape, tri.convex_hull.shape
     ((6, 4), (12, 3))
+    >>> square = dt3d.Delaunay([[0, 0], [1, 0], [0, 1], [1, 1]])
+    >>> square.simplices.shape, square.convex_hull.shape
+    ((2, 3), (4, 2))
     """
 
-    stats: Statistics | InsertionStatistics
+    stats: Statistics | InsertionStatistics | PlaneStatistics
     """Counts and times."""
 
-    _dimension: ClassVar[int] = 3
-    _part: ClassVar[type[Part]] = Subset
     _others: ClassVar[Names] = ("stats", "_exact")
+    _name: ClassVar[str] = "dt3d.Delaunay"
 
     def __init__(
         self,
         points: npt.ArrayLike,
+        furthest_site: bool = False,
+        incremental: bool = False,
+        qhull_options: str | None = None,
         *,
         method: Method = "auto",
-        robustness: Robustness = "exact",
-        machine: sv.Machine | None = None,
         threads: int | None = None,
         seed: int = 0,
-        callback: Callable[[Progress], object] | None = None,
-        **options: Unpack[ExtrapolationOptions],
+        **options: Unpack[SpaceOptions],
     ) -> None:
         begun = time.perf_counter()
+        check_scipy_options(furthest_site, incremental, qhull_options, "Delaunay")
         seed = check_seed(seed)
-        check_names(options, ExtrapolationOptions.__annotations__, "dt3d.Delaunay")
-        if chosen_preset(options) is not None:
-            robustness = "perturb"
-        dtype = options.get("dtype")
-        chosen, working = check_space_options(method, robustness, machine, threads, callback, dtype)
-        exact = robustness == "exact"
-        search = search_options(options, chosen, exact=exact)
-        self._keep(points=check_points(points), _exact=exact)
+        check_names(options, SpaceOptions.__annotations__, "dt3d.Delaunay")
+        chosen, working, exact = check_space_options(method, threads, options)
+        sites = check_points(points)
+        if sites.shape[1] == 2:
+            check_of_plane(method, options)
+            self._insert_in_plane(sites, seed, threads, begun)
+            return
+        self._keep(points=sites, _exact=exact)
+        callback = options.get("callback")
 
         def report(iteration: int, left: int, tetrahedra: int) -> None:
             if callback is not None:
@@ -190,14 +206,19 @@ class Delaunay(Whole[Subset], InSpace):
         if chosen == "insertion":
             self._insert(seed, threads, report, begun)
         else:
-            outcome = extrapolate(
+            import scanvec as sv  # and with it JAX
+
+            from .extrapolation import triangulate
+
+            machine = options.get("machine")
+            outcome = triangulate(
                 self.points,
                 sv.Device() if machine is None else machine,
                 exact=exact,
                 dtype=working,
                 seed=seed,
                 report=report,
-                options=search,
+                options=search_options(options, exact=exact),
             )
             self._take(outcome, machine, begun)
 
@@ -241,12 +262,90 @@ class Delaunay(Whole[Subset], InSpace):
             stats=outcome.statistics(ledger, time.perf_counter() - begun),
         )
 
-    @staticmethod
-    def _proof() -> Callable[..., Verification]:
+    def _insert_in_plane(self, sites: np.ndarray, seed: int, threads: int | None, begun: float) -> None:
+        from ._numba.announce import announce_compilation
+        from ._numba.cores import available_cores
+        from .threaded2d.configuration import configured
+        from .threaded2d.driver import triangulate
+
+        announce_compilation()
+        most = None if threads is None else min(threads, available_cores())
+        run = configured(len(sites), threads=most, seed=word_of(seed))
+        prepared = time.perf_counter()
+        self._take_triangles(sites, triangulate(exactly_scaled(sites), run), begun, prepared)
+
+    def _take_triangles(
+        self, sites: np.ndarray, outcome: PlaneOutcome, begun: float, prepared: float
+    ) -> None:
+        outcome.stats.seconds["input"] = prepared - begun
+        outcome.stats.seconds["total"] = time.perf_counter() - begun
+        self._keep(
+            points=sites,
+            simplices=outcome.triangles,
+            neighbors=outcome.neighbors,
+            thread=outcome.thread,
+            inserted_by=outcome.inserted_by,
+            duplicates=outcome.duplicates,
+            stats=outcome.stats,
+            _exact=True,
+        )
+
+    def subset(self, keep: npt.ArrayLike) -> Subset:
+        """Some of the simplices, as an object of its own with `find_simplex`: holes, alpha shapes.
+
+        Parameters
+        ----------
+        keep : bool (m,), or int (k,)
+            A mask of the simplices, or rows of `simplices` without repetition.
+
+        Raises
+        ------
+        ValueError
+            If it is neither.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.subset([0])
+        <1 of 2 simplices of <dt3d.Delaunay: 4 sites, 2 triangles>>
+        """
+        from .subset import Subset
+
+        return Subset(self, keep)
+
+    def verify(self) -> Verification:
+        """Check every invariant in exact arithmetic; print the outcome for the list.
+
+        The outcome is false if one is broken. Unless ``robustness="perturb"`` was asked for, the result must
+        also be the one triangulation that the symbolic perturbation defines.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> bool(dt3d.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).verify())
+        True
+        """
+        return self._proof()(
+            self.points,
+            self.simplices,
+            neighbors=self.neighbors,
+            duplicates=self.duplicates,
+            perturbed=self._exact,
+            oriented=True,
+        )
+
+    def _proof(self) -> Callable[..., Verification]:
+        """The function `verify` of this dimension; it loads numba."""
+        if self.ndim == 2:
+            from .threaded2d.verification import verify as of_plane
+
+            return of_plane
         from .verification import verify
 
         return verify
 
     def __repr__(self) -> str:
-        """How many sites and tetrahedra."""
-        return f"<dt3d.Delaunay: {len(self.points)} sites, {len(self.simplices)} tetrahedra>"
+        """How many sites and simplices."""
+        kind = "triangles" if self.ndim == 2 else "tetrahedra"
+        return f"<{self._name}: {len(self.points)} sites, {len(self.simplices)} {kind}>"

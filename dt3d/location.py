@@ -74,7 +74,8 @@ def _search(cells, q, w):
 def _find(cells, t, q, points, order, out, w):
     """Locate points[order] by walks from t on, each point copied to row q.
 
-    Returns where the last walk ended, or `LOST` where a walk did not.
+    For a point outside it writes -2 - u, where u is the simplex at which the walk left the hull, or `OUTSIDE`
+    where all simplices were searched. Returns where the last walk ended, or `LOST` where a walk did not.
     """
     cells, w = unowned(cells), unowned(w)
     for i in order:
@@ -85,6 +86,8 @@ def _find(cells, t, q, points, order, out, w):
                 out[i] = _search(cells, q, w)
             elif out[i] == LOST:
                 return LOST
+            else:
+                out[i] = -2 - t
     return t
 
 
@@ -124,31 +127,56 @@ class Locator:
         self.lock = threading.Lock()  # the rows for points at hand have one user
         _LOCATORS.add(self)
 
-    def find(self, xi: npt.ArrayLike) -> np.ndarray:
+    def find(self, xi: npt.ArrayLike, tol: float = 0.0) -> np.ndarray:
         """The simplex that contains each point of xi, real (..., d): int32 (...), or `OUTSIDE`.
+
+        Parameters
+        ----------
+        xi : array_like, real (..., d)
+            Those that are not finite are outside.
+        tol : float
+            A point outside the hull counts as in the simplex at which the walk to it left the hull, if its
+            barycentric coordinates there are not less than ``-tol``.
 
         Raises
         ------
         ValueError
-            If the points are not finite, real and of shape (..., d).
+            If the points are not real and of shape (..., d).
         InternalError
             If a walk does not end.
         """
         points, shape = check_queries(xi, len(self.low))
-        return self.find_checked(points).reshape(shape)
+        return self.find_checked(points, tol).reshape(shape)
 
-    def find_checked(self, points: np.ndarray) -> np.ndarray:
-        """The same for finite float64 (k, d): int32 (k,). Of millions of points some are taken at a time."""
+    def find_checked(self, points: np.ndarray, tol: float = 0.0) -> np.ndarray:
+        """The same for float64 (k, d): int32 (k,). Of millions of points some are taken at a time."""
         at_a_time = min(len(points), POINTS_AT_A_TIME)
         require(f"locating {len(points)} points", 4 * len(points) + BYTES_PER_POINT * at_a_time)
         out = np.full(len(points), OUTSIDE, np.int32)
         for begin in range(0, len(points), POINTS_AT_A_TIME):
             # a copy is contiguous, and nobody else changes it
             part = np.array(points[begin : begin + POINTS_AT_A_TIME], order="C")
-            within = np.flatnonzero(((part >= self.low) & (part <= self.high)).all(axis=1))
+            # comparisons with NaN are false
+            within = (part >= self.low) & (part <= self.high) if tol == 0 else np.isfinite(part)
+            rows = np.flatnonzero(within.all(axis=1))
+            found = out[begin : begin + POINTS_AT_A_TIME]
             with self.lock:
-                self._find(part, within[_along_curve(part[within])], out[begin : begin + POINTS_AT_A_TIME])
+                self._find(part, rows[_along_curve(part[rows])], found)
+            if tol > 0:
+                self._admit(part, found, tol)
+            np.maximum(found, OUTSIDE, out=found)
         return out
+
+    def _admit(self, points: np.ndarray, found: np.ndarray, tol: float) -> None:
+        """Put points that are as near as that into the simplices at which the walks to them left the hull."""
+        from .geometry.barycentric import barycentric_weights
+
+        outside = np.flatnonzero(found < OUTSIDE)
+        left = -2 - found[outside]
+        sites = self.cells.rows[: len(self.cells.rows) - len(self.works)]
+        weights = barycentric_weights(sites, self.simplices, left, points[outside])
+        near = weights.min(axis=1, initial=np.inf) >= -tol
+        found[outside[near]] = left[near]
 
     def find_kept(self, points: np.ndarray, found: np.ndarray, kept: np.ndarray) -> np.ndarray:
         """For points that lie in the simplices found, the ones that contain them, too, and are kept.

@@ -16,59 +16,65 @@ the model in section 2.3.
 G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990; Teng et al. 1993, section 2.3.
 """
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from . import _deprecated
 
-# exclusive access
-from ._ledger.conflict import ConcurrentAccessError, Conflict
+if TYPE_CHECKING:
+    # exclusive access
+    from ._ledger.conflict import ConcurrentAccessError, Conflict
 
-# machines, vectors and ledgers
-from ._ledger.entry import Entry, Row
-from ._ledger.ledger import Ledger
-from ._machine.base import Machine
-from ._machine.device import Device
-from ._machine.simulated import Simulated
+    # machines, vectors and ledgers
+    from ._ledger.entry import Entry, Row
+    from ._ledger.ledger import Ledger
+    from ._machine.base import Machine
+    from ._machine.device import Device
+    from ._machine.simulated import Simulated
 
-# cost models, and their calibration
-from ._models.calibration import calibrate
-from ._models.connection_machines import CM2, CM5
-from ._models.model import Constant, Model
-from ._models.networks import HYPERCUBE, MESH2D
-from ._models.pram import CRCW_PRAM, EREW_PRAM, SCAN
+    # cost models, and their calibration
+    from ._models.calibration import calibrate
+    from ._models.connection_machines import CM2, CM5
+    from ._models.model import Constant, Model
+    from ._models.networks import HYPERCUBE, MESH2D
+    from ._models.pram import CRCW_PRAM, EREW_PRAM, SCAN
 
-# operators
-from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
+    # operators
+    from ._monoid import ADD, AND, ARGMIN, COPY, MAX, MIN, MUL, OR, Monoid
 
-# functions of elements
-from ._primitives.elementwise import elementwise
+    # functions of elements
+    from ._primitives.elementwise import elementwise
 
-# two records into one
-from ._primitives.merge import flag_merge, where
+    # two records into one
+    from ._primitives.merge import flag_merge, where
 
-# vectors of other lengths
-from ._primitives.pack import append, distribute, pack, pack_index, split
+    # vectors of other lengths
+    from ._primitives.pack import append, distribute, pack, pack_index, split
 
-# movement
-from ._primitives.permute import get, permute, scatter, send
+    # movement
+    from ._primitives.permute import get, permute, scatter, send
 
-# scalars
-from ._primitives.scalar import extract, full_like, insert
+    # scalars
+    from ._primitives.scalar import extract, full_like, insert
 
-# scans and reductions
-from ._primitives.scan import (
-    backscan,
-    backscan_inclusive,
-    copy_scan,
-    enumerate,
-    op_distribute,
-    reduce,
-    scan,
-    scan_inclusive,
-)
+    # scans and reductions
+    from ._primitives.scan import (
+        backscan,
+        backscan_inclusive,
+        copy_scan,
+        enumerate,
+        op_distribute,
+        reduce,
+        scan,
+        scan_inclusive,
+    )
 
-# sorting and sets
-from ._primitives.sort import rank, segmented_sort, sort, union, unique
-from ._segments import Segments
-from ._vector import Vector
+    # sorting and sets
+    from ._primitives.sort import rank, segmented_sort, sort, union, unique
+    from ._segments import Segments
+    from ._vector import Vector
 
 __all__ = [
     "ADD", "AND", "ARGMIN", "COPY", "MAX", "MIN", "MUL", "OR",
@@ -81,10 +87,53 @@ __all__ = [
     "split", "union", "unique", "where",
 ]  # fmt: skip
 
+_HOMES = {
+    "_ledger.conflict": ["ConcurrentAccessError", "Conflict"],
+    "_ledger.entry": ["Entry", "Row"],
+    "_ledger.ledger": ["Ledger"],
+    "_machine.base": ["Machine"],
+    "_machine.device": ["Device"],
+    "_machine.simulated": ["Simulated"],
+    "_models.calibration": ["calibrate"],
+    "_models.connection_machines": ["CM2", "CM5"],
+    "_models.model": ["Constant", "Model"],
+    "_models.networks": ["HYPERCUBE", "MESH2D"],
+    "_models.pram": ["CRCW_PRAM", "EREW_PRAM", "SCAN"],
+    "_monoid": ["ADD", "AND", "ARGMIN", "COPY", "MAX", "MIN", "MUL", "OR", "Monoid"],
+    "_primitives.elementwise": ["elementwise"],
+    "_primitives.merge": ["flag_merge", "where"],
+    "_primitives.pack": ["append", "distribute", "pack", "pack_index", "split"],
+    "_primitives.permute": ["get", "permute", "scatter", "send"],
+    "_primitives.scalar": ["extract", "full_like", "insert"],
+    "_primitives.scan": [
+        "backscan",
+        "backscan_inclusive",
+        "copy_scan",
+        "enumerate",
+        "op_distribute",
+        "reduce",
+        "scan",
+        "scan_inclusive",
+    ],
+    "_primitives.sort": ["rank", "segmented_sort", "sort", "union", "unique"],
+    "_segments": ["Segments"],
+    "_vector": ["Vector"],
+}
+_MODULES = {name: module for module, names in _HOMES.items() for name in names}
+
 
 def __getattr__(name: str) -> object:
+    """Load a public name when it is first used, and with it JAX, so that dt3d can do without."""
     if name in _deprecated.NAMES:
         _deprecated.warn(name, _deprecated.NAMES[name])
-        return globals()[_deprecated.NAMES[name]]
-    msg = f"module {__name__!r} has no attribute {name!r}"
-    raise AttributeError(msg)
+        return getattr(import_module(__name__), _deprecated.NAMES[name])
+    if name not in _MODULES:
+        msg = f"module {__name__!r} has no attribute {name!r}"
+        raise AttributeError(msg)
+    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -48,7 +48,7 @@ def stats_table(tri: Delaunay, title: str) -> Table:
     if isinstance(stats, InsertionStatistics):
         for name in ("walked", "tested", "created"):
             table.add_row(f"tetrahedra {name} per site", _ratio(getattr(stats, name), len(tri.points)))
-    else:
+    elif isinstance(stats, Statistics):
         _add_extrapolation(table, stats, len(tri.simplices))
     table.add_row("inconsistencies", f"{stats.inconsistencies:,}")
     return _timed(table, stats.seconds)

@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar, Unpack
+from typing import ClassVar, Unpack
 
 import numpy.typing as npt
 
 from .._input import check_points, exactly_scaled
 from .._numba.announce import announce_compilation
 from .._options import Location, Order, PlaneMethod, Subdivision, check_names, check_plane_options
-from .._results import Names
-from .._triangulation import InPlane, Part, Whole
+from ..delaunay import Delaunay as Triangulated
 from .configuration import configured
 from .driver import triangulate
 from .options import PlaneOptions, check_values
 from .statistics import Statistics
-from .subset import Subset
-
-if TYPE_CHECKING:
-    from .._proof import Verification
 
 
-class Delaunay(Whole[Subset], InPlane):
-    """The Delaunay triangulation of points in the plane, by threads that insert sites into one structure.
+class Delaunay(Triangulated):
+    """The `dt3d.Delaunay` of points in the plane, with a choice of threads that insert into one structure.
 
     J. Kohout, I. Kolingerova, J. Zara: Practically oriented parallel Delaunay triangulation in E2 for
     computers with shared memory. Computers & Graphics 28, 2004. The result is exact, and the symbolic
@@ -118,10 +112,7 @@ class Delaunay(Whole[Subset], InPlane):
     stats: Statistics
     """Counts and times."""
 
-    _dimension: ClassVar[int] = 2
-    _part: ClassVar[type[Part]] = Subset
-    _others: ClassVar[Names] = ("stats",)
-    _derived: ClassVar[Names] = (*Whole._derived, "triangles")
+    _name: ClassVar[str] = "dt3d.threaded2d.Delaunay"
 
     def __init__(
         self,
@@ -154,25 +145,4 @@ class Delaunay(Whole[Subset], InPlane):
             **options,
         )
         prepared = time.perf_counter()
-        outcome = triangulate(sites, run)
-        self._keep(
-            points=points,
-            simplices=outcome.triangles,
-            neighbors=outcome.neighbors,
-            thread=outcome.thread,
-            inserted_by=outcome.inserted_by,
-            duplicates=outcome.duplicates,
-            stats=outcome.stats,
-        )
-        self.stats.seconds["input"] = prepared - begun
-        self.stats.seconds["total"] = time.perf_counter() - begun
-
-    @staticmethod
-    def _proof() -> Callable[..., Verification]:
-        from .verification import verify
-
-        return verify
-
-    def __repr__(self) -> str:
-        """How many sites and triangles."""
-        return f"<dt3d.threaded2d.Delaunay: {len(self.points)} sites, {len(self.simplices)} triangles>"
+        self._take_triangles(points, triangulate(sites, run), begun, prepared)

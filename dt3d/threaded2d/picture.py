@@ -14,15 +14,15 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.axes import Axes
 
-    from .._triangulation import InPlane
+    from .._triangulation import Triangulation
 
 
-def to_pyvista(tri: InPlane, heights: npt.ArrayLike | None = None) -> pyvista.PolyData:
+def to_pyvista(tri: Triangulation, heights: npt.ArrayLike | None = None) -> pyvista.PolyData:
     """The triangles as a surface with cell data "thread" and point data "inserted_by".
 
     Parameters
     ----------
-    tri : threaded2d.Delaunay or threaded2d.Subset
+    tri : threaded2d.Delaunay or Subset
         What is shown.
     heights : float (n,), optional
         The third coordinate of each point; 0 if left out.
@@ -41,7 +41,9 @@ def to_pyvista(tri: InPlane, heights: npt.ArrayLike | None = None) -> pyvista.Po
     return mesh
 
 
-def plot(tri: InPlane, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None) -> Axes:
+def plot(
+    tri: Triangulation, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None
+) -> Axes:
     """Draw the triangles, coloured by the threads that made them, as `Delaunay.plot` does."""
     if ax is None:
         ax = new_figure(6, 6).add_subplot()

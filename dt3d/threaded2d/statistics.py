@@ -50,6 +50,8 @@ class Statistics:
     interleave, parts, queued, tested, helping
         What was run of the options of these names; ``queued`` and ``helping`` are of method "batch", and
         ``tested`` of "circumcircle".
+    inconsistencies : int
+        Always 0: every decision is exact.
     """
 
     method: str
@@ -81,6 +83,7 @@ class Statistics:
     queued: str = "leaf"
     tested: str = "outer"
     helping: bool = False
+    inconsistencies: int = 0
 
     @property
     def tests_per_access(self) -> float:

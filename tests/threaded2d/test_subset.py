@@ -4,8 +4,7 @@ from collections import Counter
 
 import numpy as np
 
-from dt3d import OUTSIDE, threaded2d
-from dt3d.threaded2d.subset import Subset
+from dt3d import OUTSIDE, Subset, threaded2d
 
 POINTS = np.random.default_rng(0).integers(0, 1000, (120, 2)).astype(float)
 

@@ -14,14 +14,14 @@ from ...threaded2d.picture import to_pyvista
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..._triangulation import InPlane
+    from ..._triangulation import Triangulation
 
 PALER = 0.45  # of a thread's colour, so that shadows are seen on it
 FONT = 0.01  # of the width
 
 
 def render(
-    tri: InPlane, heights: np.ndarray, *, spacing: float, exaggeration: float = 2.0, width: int = 2400
+    tri: Triangulation, heights: np.ndarray, *, spacing: float, exaggeration: float = 2.0, width: int = 2400
 ) -> np.ndarray:
     """The picture of a terrain seen from the south and above, uint8 (height, width, 3), its margins cut off.
 
@@ -68,7 +68,7 @@ def render(
 
 
 def paint(
-    axes: Axes, tri: InPlane, heights: np.ndarray, *, spacing: float, exaggeration: float = 2.0
+    axes: Axes, tri: Triangulation, heights: np.ndarray, *, spacing: float, exaggeration: float = 2.0
 ) -> None:
     """Put the picture of `render` on matplotlib axes, with a legend of the threads below it."""
     patch = optional("matplotlib.patches").Patch

@@ -22,7 +22,7 @@ def test_the_paper_s_values():
         ({"search": "boxes"}, PAPER_SEARCH),
         ({}, SearchOptions()),
     ):
-        assert search_options(given, "extrapolation", exact=False) == want
+        assert search_options(given, exact=False) == want
 
 
 @pytest.mark.parametrize(

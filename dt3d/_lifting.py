@@ -1,0 +1,91 @@
+"""Sites lifted onto a paraboloid, as Qhull does, and barycentric maps: arrays that SciPy's class has.
+
+The lower hull of sites lifted to z = s |x|^2 + t is their Delaunay triangulation (K. Brown: Voronoi diagrams
+from convex hulls, Information Processing Letters 9, 1979).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from ._numba.cores import available_cores
+
+LEAST_ROWS = 20_000  # worth a thread
+
+
+def paraboloid(points: np.ndarray) -> tuple[float, float]:
+    """The scale s and the shift t of the paraboloid s |x|^2 + t, as Qhull's options Qbb and Qz give them.
+
+    Heights go from 0 to the greatest magnitude of a coordinate, which the point at infinity of option Qz has,
+    a tenth above the greatest square.
+    """
+    squares = (points**2).sum(axis=1)
+    least, greatest = float(squares.min()), 1.1 * float(squares.max())
+    with np.errstate(over="ignore", invalid="ignore"):
+        scale = float(np.abs(points).max()) / (greatest - least)
+    return scale, -least * scale
+
+
+def lifted(points: np.ndarray, scale: float, shift: float) -> np.ndarray:
+    """Points (k, d) with their heights: float64 (k, d + 1)."""
+    return np.column_stack([points, scale * (points**2).sum(axis=1) + shift])
+
+
+def hyperplanes(points: np.ndarray, simplices: np.ndarray, scale: float, shift: float) -> np.ndarray:
+    """The hyperplanes through lifted simplices, float64 (m, d + 2): lower unit normals and offsets.
+
+    That of a simplex with circumcenter c has the normal (2 s c, -1) before it is scaled: on it heights are
+    s (|x|^2 - power of x with respect to the sphere) + t.
+    """
+    from .geometry.circumcenters import circumcenters
+
+    normals = np.column_stack(
+        [2 * scale * circumcenters(points, simplices)[0], np.full(len(simplices), -1.0)]
+    )
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    on_it = lifted(points[simplices[:, 0]], scale, shift)
+    return np.column_stack([normals, -np.einsum("ij,ij->i", normals, on_it)])
+
+
+def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """SciPy's ``transform``, float64 (m, d + 1, d): inverse matrices, and the last vertices."""
+    from .geometry.measures import measures
+
+    m, d = len(simplices), points.shape[1]
+    out = np.empty((m, d + 1, d))
+    signed = math.factorial(d) * measures(points, simplices)  # never zero, where rounding would lose it
+    if d == 3:
+        signed = -signed  # the determinant of the sides that end in the last vertex
+
+    def rows(begin: int, end: int) -> None:
+        corners = points[simplices[begin:end]]
+        last = corners[:, -1]
+        sides = corners[:, :-1] - last[:, None]
+        inverse = out[begin:end, :d]
+        if d == 2:
+            inverse[:, 0, 0], inverse[:, 0, 1] = sides[:, 1, 1], -sides[:, 1, 0]
+            inverse[:, 1, 0], inverse[:, 1, 1] = -sides[:, 0, 1], sides[:, 0, 0]
+        else:
+            for k in range(3):
+                inverse[:, k] = np.cross(sides[:, (k + 1) % 3], sides[:, (k + 2) % 3])
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            inverse /= signed[begin:end, None, None]
+        out[begin:end, d] = last
+
+    in_pieces(rows, m)
+    return out
+
+
+def in_pieces(work: Callable[[int, int], object], n: int) -> None:
+    """Call work(begin, end) for pieces of n rows, by threads where that is worth it."""
+    from ._numba.threads import run_short_tasks
+
+    pieces = max(1, min(available_cores(), n // LEAST_ROWS))
+    bounds = [n * k // pieces for k in range(pieces + 1)]
+    tasks = [partial(work, begin, end) for begin, end in itertools.pairwise(bounds)]
+    run_short_tasks(tasks)
