@@ -106,7 +106,7 @@ def _shape_error(given: np.ndarray, name: str, dimension: int | None) -> ValueEr
         if given.size and len(fits) == 1:
             cure = f"; pass {name}.reshape(-1, {fits[0]})"
         elif given.size and fits:
-            cure = f"; pass {name}.reshape(-1, 2) or {name}.reshape(-1, 3)"
+            cure = f"; pass {name}.reshape(-1, 3), or {name}.reshape(-1, 2) in the plane"
     wanted = " or ".join(f"(n, {d})" for d in served)
     return ValueError(f"points must have shape {wanted}, got {shape}{cure}")
 

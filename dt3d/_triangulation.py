@@ -157,6 +157,8 @@ class Triangulation(Result):
 
 
 def _dimension(state: dict[str, object]) -> int:
-    """2 if there are points with two coordinates, else 3."""
+    """2 or 3, as many as the points have coordinates; without points by what only the plane has."""
     points = state.get("points")
-    return 2 if isinstance(points, np.ndarray) and points.ndim == 2 and points.shape[1] == 2 else 3
+    if isinstance(points, np.ndarray) and points.ndim == 2:
+        return 2 if points.shape[1] == 2 else 3
+    return 2 if "inserted_by" in state else 3

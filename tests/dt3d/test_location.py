@@ -104,7 +104,6 @@ def test_shapes_and_kinds_of_points():
     [
         ([1, 2], r"shape \(\.\.\., 3\), got \(2,\)"),
         (3.0, r"shape \(\.\.\., 3\), got \(\)"),
-        ([[0, 0, np.nan], [0, 0, 0]], "1 rows have NaN or infinity, the first is row 0"),
         ([["a", "b", "c"]], "real numbers"),
         (np.ma.masked_equal([[1.0, 2.0, 3.0]], 2), "masked"),
     ],
@@ -112,6 +111,19 @@ def test_shapes_and_kinds_of_points():
 def test_errors(points, message):
     with pytest.raises(ValueError, match=message):
         dt3d.Delaunay(families.grid(2)).find_simplex(points)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_points_that_are_not_finite_are_outside_as_in_scipy(dimension):
+    tri = dt3d.Delaunay(np.random.default_rng(0).random((50, dimension)))
+    xi = np.full((4, 2, dimension), 0.5)
+    xi[0, 1, 0], xi[1, 0, -1], xi[3, 1, 1] = np.nan, np.inf, -np.inf
+    found = tri.find_simplex(xi)
+    finite = np.isfinite(xi).all(axis=-1)
+    assert (found[finite] >= 0).all()
+    assert (found[~finite] == dt3d.OUTSIDE).all()
+    np.testing.assert_array_equal(tri.find_simplex(xi, tol=0.1), found)
+    np.testing.assert_array_equal(tri.subset(np.ones(tri.nsimplex, bool)).find_simplex(xi), found)
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1e300, 1.0])

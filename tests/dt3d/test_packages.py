@@ -15,11 +15,23 @@ def loaded_by(statement):
 
 
 def test_importing_dt3d_loads_no_viewer_and_no_command_line():
-    assert "jax" not in loaded_by("import dt3d")
     modules = loaded_by("import dt3d; dt3d.Delaunay")
-    assert "jax" in modules
     viewers = {"pyvista", "vtk", "vtkmodules", "matplotlib", "meshio"}
-    assert modules.isdisjoint(viewers | {"numba", "rich", "cyclopts", "scipy.spatial"})
+    assert modules.isdisjoint(viewers | {"numba", "rich", "cyclopts", "scipy", "jax", "scanvec"})
+
+
+def test_inserting_loads_no_jax():
+    code = """import numpy, dt3d
+points = numpy.random.default_rng(0).random((50, 3))
+for tri in dt3d.Delaunay(points), dt3d.Delaunay(points[:, :2]):
+    tri.find_simplex(points[:, :tri.ndim]), tri.verify(), tri.convex_hull, tri.vertex_neighbor_vertices
+    tri.subset([0]).boundary, tri.transform, tri.equations"""
+    modules = loaded_by(code)
+    assert "numba" in modules
+    assert "jax" not in modules
+    assert "jax" in loaded_by(
+        "import dt3d; dt3d.Delaunay([[0,0,0],[1,0,0],[0,1,0],[0,0,1]], method='extrapolation')"
+    )
 
 
 def test_every_public_name_is_there_and_no_other():
