@@ -108,7 +108,8 @@ def _shape_error(given: np.ndarray, name: str, dimension: int | None) -> ValueEr
         elif given.size and fits:
             cure = f"; pass {name}.reshape(-1, 3), or {name}.reshape(-1, 2) in the plane"
     wanted = " or ".join(f"(n, {d})" for d in served)
-    return ValueError(f"points must have shape {wanted}, got {shape}{cure}")
+    came = f"{shape}, {len(shape)} dimensions" if len(shape) > 2 else f"{shape}"
+    return ValueError(f"points must have shape {wanted}, got {came}{cure}")
 
 
 def check_seed(seed: object) -> int:

@@ -52,8 +52,15 @@ def hyperplanes(points: np.ndarray, simplices: np.ndarray, scale: float, shift: 
     return np.column_stack([normals, -np.einsum("ij,ij->i", normals, on_it)])
 
 
+# SciPy's bound: beyond it a matrix is not inverted, since nothing is left of rounded coordinates
+WORST_CONDITION = 1 / (1000 * np.finfo(np.float64).eps)
+
+
 def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
-    """SciPy's ``transform``, float64 (m, d + 1, d): inverse matrices, and the last vertices."""
+    """SciPy's ``transform``, float64 (m, d + 1, d): inverse matrices, and the last vertices.
+
+    NaN where the condition number of the matrix, by the sums of columns, exceeds `WORST_CONDITION`.
+    """
     from .geometry.measures import measures
 
     m, d = len(simplices), points.shape[1]
@@ -75,10 +82,18 @@ def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndar
                 inverse[:, k] = np.cross(sides[:, (k + 1) % 3], sides[:, (k + 2) % 3])
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             inverse /= signed[begin:end, None, None]
+            condition = _norm(sides) * _norm(inverse.swapaxes(1, 2))
+        inverse[~(condition <= WORST_CONDITION)] = np.nan
         out[begin:end, d] = last
 
     in_pieces(rows, m)
     return out
+
+
+def _norm(rows: np.ndarray) -> np.ndarray:
+    """The greatest sum of magnitudes of a row of each matrix (k, d, d): float64 (k,)."""
+    greatest: np.ndarray = np.abs(rows).sum(axis=2).max(axis=1)
+    return greatest
 
 
 def in_pieces(work: Callable[[int, int], object], n: int) -> None:

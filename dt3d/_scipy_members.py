@@ -139,9 +139,9 @@ class SciPyMembers(Triangulation):
         ``c = transform[i, :d] @ (x - transform[i, d])`` are the first d coordinates of x in simplex i, and
         ``1 - c.sum()`` is the last.
 
-        No simplex is flat here, so no map is NaN, as SciPy's are for flat simplices. Rounding of c grows with
-        the ratio of a simplex's longest edge to its least height. Maps are infinite where the inverse of a
-        simplex's size is not a float64.
+        NaN for slivers, as in SciPy: where the condition number of the matrix exceeds 1 / (1000 eps), and
+        nothing would be left of c. SciPy has flat simplices besides, on grids for example, with NaN for their
+        maps; here no simplex is flat. `barycentric` gives coordinates of points in slivers, too.
 
         Examples
         --------
