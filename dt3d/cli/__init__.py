@@ -1,4 +1,4 @@
-"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`.
+"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`, `compare`.
 
 Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation, or one of `experiment all` failed;
 2 bad words or input, or a file that cannot be read or written, with one line that says what is wrong; 70 a
@@ -16,14 +16,14 @@ from rich.console import Console
 import dt3d
 
 from .._status import Printer, one_line, run
-from . import bench, demo, experiment, meshes, triangulate
+from . import bench, compare, demo, experiment, meshes, triangulate
 
 __all__ = ["app", "main"]
 
 app = cyclopts.App(
     name="dt3d",
-    help="Exact 3D Delaunay triangulations, by multithreaded insertion or by the data-parallel algorithm of "
-    "Teng et al.\n\n"
+    help="Exact Delaunay triangulations in space and in the plane, by multithreaded insertion or by the "
+    "data-parallel algorithm of Teng et al.\n\n"
     "Exit status: 0 done; 1 not a Delaunay triangulation (verify), or one failed (experiment all); "
     "2 bad words, input or files; 70 a fault of dt3d; 130 Ctrl-C; 141 the output was closed.",
     version=dt3d.__version__,
@@ -36,6 +36,7 @@ for command in (
     meshes.view,
     experiment.experiment,
     bench.bench,
+    compare.compare,
 ):
     app.command(command)
 
