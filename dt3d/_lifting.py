@@ -6,16 +6,11 @@ from convex hulls, Information Processing Letters 9, 1979).
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable
-from functools import partial
 
 import numpy as np
 
-from ._numba.cores import available_cores
-
-LEAST_ROWS = 20_000  # worth a thread
+LEAST_ROWS = 20_000  # worth a thread of NumPy's functions
 
 
 def paraboloid(points: np.ndarray) -> tuple[float, float]:
@@ -62,6 +57,7 @@ def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndar
     NaN where the condition number of the matrix, by the sums of columns, exceeds `WORST_CONDITION`.
     """
     from .geometry.measures import measures
+    from .geometry.pairs import in_pieces
 
     m, d = len(simplices), points.shape[1]
     out = np.empty((m, d + 1, d))
@@ -86,7 +82,7 @@ def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndar
         inverse[~(condition <= WORST_CONDITION)] = np.nan
         out[begin:end, d] = last
 
-    in_pieces(rows, m)
+    in_pieces(rows, m, LEAST_ROWS)
     return out
 
 
@@ -94,13 +90,3 @@ def _norm(rows: np.ndarray) -> np.ndarray:
     """The greatest sum of magnitudes of a row of each matrix (k, d, d): float64 (k,)."""
     greatest: np.ndarray = np.abs(rows).sum(axis=2).max(axis=1)
     return greatest
-
-
-def in_pieces(work: Callable[[int, int], object], n: int) -> None:
-    """Call work(begin, end) for pieces of n rows, by threads where that is worth it."""
-    from ._numba.threads import run_short_tasks
-
-    pieces = max(1, min(available_cores(), n // LEAST_ROWS))
-    bounds = [n * k // pieces for k in range(pieces + 1)]
-    tasks = [partial(work, begin, end) for begin, end in itertools.pairwise(bounds)]
-    run_short_tasks(tasks)
