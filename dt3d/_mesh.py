@@ -31,13 +31,6 @@ class Tetrahedra(Protocol):
         """The iteration that found each tetrahedron, int (m,)."""
 
 
-def volumes(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
-    """Volume of each tetrahedron abcd, float64 (m,): det[b-a, c-a, d-a] / 6, with its sign."""
-    a, b, c, d = np.asarray(points, np.float64)[simplices].swapaxes(0, 1)
-    sixfold: np.ndarray = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)
-    return sixfold / 6.0
-
-
 def to_pyvista(tri: Tetrahedra) -> pyvista.UnstructuredGrid:
     """The tetrahedra of a triangulation, with cell data "iteration" (int32) and "volume" (float64).
 
@@ -54,8 +47,17 @@ def to_pyvista(tri: Tetrahedra) -> pyvista.UnstructuredGrid:
         {pv.CellType.TETRA: tri.simplices}, np.array(tri.points, np.float64)
     )
     grid.cell_data["iteration"] = np.array(tri.iteration, np.int32)
-    grid.cell_data["volume"] = volumes(tri.points, tri.simplices)
+    grid.cell_data["volume"] = sizes(tri)
     return grid
+
+
+def sizes(tri: Tetrahedra) -> np.ndarray:
+    """The volume of each tetrahedron, float64 (m,)."""
+    from .geometry.measures import measures
+
+    return measures(
+        np.ascontiguousarray(tri.points, np.float64), np.ascontiguousarray(tri.simplices, np.int32)
+    )
 
 
 def surface(tri: Delaunay | Subset) -> np.ndarray:

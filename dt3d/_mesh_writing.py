@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._mesh import own_points, surface, to_pyvista, volumes
+from ._mesh import own_points, sizes, surface, to_pyvista
 from ._optional import optional
 from ._paths import check_target, written_aside
 
@@ -69,7 +69,7 @@ def check_mesh_path(path: str | Path) -> Path:
 def _write_npz(tri: Delaunay | Subset, path: Path) -> None:
     arrays = {name: getattr(tri, name) for name in ("points", "simplices", "neighbors", "iteration")}
     with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
-        np.savez_compressed(file, volume=volumes(tri.points, tri.simplices), **arrays)
+        np.savez_compressed(file, volume=sizes(tri), **arrays)
 
 
 def _write_vtu(tri: Delaunay | Subset, path: Path) -> None:

@@ -13,10 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _lifting
+from ._geometry import Geometry
 from ._input import check_queries
-from ._results import check_range, frozen
+from ._results import frozen
 from ._topology import OUTSIDE
-from ._triangulation import Triangulation
 
 if TYPE_CHECKING:
     import scipy.spatial
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .location import Locator
 
 
-class SciPyMembers(Triangulation):
+class SciPyMembers(Geometry):
     """A triangulation of the convex hull, with what SciPy's class has."""
 
     _exact: bool = True
@@ -91,12 +91,12 @@ class SciPyMembers(Triangulation):
         >>> indices[indptr[0]:indptr[1]].tolist(), indices[indptr[1]:indptr[2]].tolist()
         ([1, 2], [0, 2, 3])
         """
-        from ._vertices import neighbors_of_vertices
-
-        # it indexes without a check
-        check_range("simplices", self.simplices, 0, len(self.points))
-        indptr, indices = neighbors_of_vertices(self.simplices, len(self.points))
+        indptr, indices = super()._adjacency
         return frozen(indptr), frozen(indices)
+
+    @property
+    def _adjacency(self) -> tuple[np.ndarray, np.ndarray]:
+        return self.vertex_neighbor_vertices
 
     @cached_property
     def vertex_to_simplex(self) -> np.ndarray:

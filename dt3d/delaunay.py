@@ -314,6 +314,65 @@ class Delaunay(SciPyMembers):
 
         return Subset(self, keep)
 
+    def boundary(self, keep: npt.ArrayLike) -> np.ndarray:
+        """The facets between the simplices that a mask keeps and all else: int32 (b, d), oriented outwards.
+
+        Those of ``subset(keep).boundary``, and for a mask of all those of `convex_hull`.
+
+        Parameters
+        ----------
+        keep : bool (m,), or int (k,)
+            A mask of the simplices, or rows of `simplices` without repetition.
+
+        Raises
+        ------
+        ValueError
+            If it is neither.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.boundary([0]).shape, tri.boundary(tri.volumes > 0).shape
+        ((3, 2), (4, 2))
+        """
+        return self.subset(keep).boundary
+
+    def alpha_shape(self, alpha: float) -> Subset:
+        """The simplices of which the circumscribed sphere has a radius of at most alpha.
+
+        This is the solid part of the alpha shape of H. Edelsbrunner and E. P. Muecke (Three-dimensional alpha
+        shapes, ACM Transactions on Graphics 13, 1994): triangles in the plane, tetrahedra in space. Edges and
+        triangles that no such simplex has are not in it; `alpha_complex` has these.
+
+        Parameters
+        ----------
+        alpha : float
+            A radius, in units of the coordinates, as PyVista's ``delaunay_3d(alpha=)`` takes it. CGAL and
+            GUDHI take its square. From ``circumradii.max()`` on the shape is the convex hull.
+
+        Returns
+        -------
+        Subset
+            With `Subset.boundary`, the surface, and `Subset.find_simplex`. It may have holes and parts.
+
+        Raises
+        ------
+        ValueError
+            If alpha is not a number from 0 on.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [9, 9]])
+        >>> tri.alpha_shape(2).boundary.shape
+        (3, 2)
+        """
+        if not (isinstance(alpha, int | float | np.number) and alpha >= 0):
+            msg = f"alpha must be a radius, a number that is not negative, got {alpha!r}"
+            raise ValueError(msg)
+        return self.subset(self.circumradii <= alpha)
+
     def verify(self) -> Verification:
         """Check every invariant in exact arithmetic; print the outcome for the list.
 

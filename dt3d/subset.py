@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ._geometry import Geometry
 from ._input import check_queries
 from ._results import Names, frozen
 from ._topology import OUTSIDE
-from ._triangulation import PER_SIMPLEX, PER_SITE, Triangulation
+from ._triangulation import PER_SIMPLEX, PER_SITE
 
 if TYPE_CHECKING:
     from .delaunay import Delaunay
 
 
-class Subset(Triangulation):
+class Subset(Geometry):
     """Some of the simplices of a triangulation, as `dt3d.Delaunay.subset` makes it.
 
     Read-only, as the triangulation. It need be neither convex nor connected. Sites keep their numbers, those

@@ -43,9 +43,11 @@ def plain_weights(points, row, x, out):
         total = (out[0] + out[1]) + (out[2] + out[3])
         product = max(abs(ax), abs(bx), abs(cx), abs(dx)) * max(abs(ay), abs(by), abs(cy), abs(dy))
         product *= max(abs(az), abs(bz), abs(cz), abs(dz))
+    if not abs(total) > WELL_SHAPED * product or product < 1e-250:
+        return False
     for k in range(len(row)):
         out[k] /= total
-    return abs(total) > WELL_SHAPED * product and product > 1e-250
+    return True
 
 
 @cached_njit
@@ -57,7 +59,8 @@ def weights_of_pairs(points, row, x, out):
         r = sides_in_plane(points[row[2]], x, shrink)
         parts = (dd.minor(q, r), dd.minor(r, p), dd.minor(p, q))
         total = dd.add(dd.add(parts[0], parts[1]), parts[2])[0]
-        product = extent((p, q, r), 0) * extent((p, q, r), 1)
+        if not abs(total) > RELIABLE * (extent((p, q, r), 0) * extent((p, q, r), 1)):
+            return False
         for k in range(3):
             out[k] = parts[k][0] / total
     else:
@@ -67,9 +70,11 @@ def weights_of_pairs(points, row, x, out):
         volumes = (dot(b, cd), dot(a, cd), dot(d, ab), dot(c, ab))
         total = dd.add(dd.subtract(volumes[0], volumes[1]), dd.subtract(volumes[2], volumes[3]))[0]
         product = extent((a, b, c, d), 0) * extent((a, b, c, d), 1) * extent((a, b, c, d), 2)
+        if not abs(total) > RELIABLE * product:
+            return False
         for k in range(4):
             out[k] = (1.0 - 2.0 * (k % 2)) * volumes[k][0] / total
-    return abs(total) > RELIABLE * product
+    return True
 
 
 @cached_njit(nogil=True)

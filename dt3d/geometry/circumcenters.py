@@ -29,12 +29,14 @@ def _circumcenters(points, simplices, begin, end, centers, radii):
             p = sides_in_plane(points[row[1]], origin, shrink)
             q = sides_in_plane(points[row[2]], origin, shrink)
             det = dd.minor(p, q)
-            product = extent((p, q), 0) * extent((p, q), 1)
+            if not abs(det[0]) > RELIABLE * (extent((p, q), 0) * extent((p, q), 1)):
+                radii[t] = np.nan
+                continue
             pp, qq = dd.square(p), dd.square(q)
             for i in range(2):
                 j, sign = 1 - i, 1.0 - 2.0 * i
                 c = dd.subtract(dd.multiply(pp, q[j]), dd.multiply(qq, p[j]))
-                x = sign * ((c[0] + c[1]) / (det[0] + det[1])) / 2.0
+                x = sign * (c[0] / det[0]) / 2.0
                 squares += x * x
                 centers[t, i] = origin[i] + x / shrink
         else:
@@ -44,6 +46,9 @@ def _circumcenters(points, simplices, begin, end, centers, radii):
             vw, wu, uv = cross(v, w), cross(w, u), cross(u, v)
             det = dot(u, vw)
             product = extent((u, v, w), 0) * extent((u, v, w), 1) * extent((u, v, w), 2)
+            if not abs(det[0]) > RELIABLE * product:
+                radii[t] = np.nan
+                continue
             uu, vv, ww = dd.square(u), dd.square(v), dd.square(w)
             for i in range(3):
                 c = dd.add(dd.add(dd.multiply(uu, vw[i]), dd.multiply(vv, wu[i])), dd.multiply(ww, uv[i]))
@@ -51,8 +56,6 @@ def _circumcenters(points, simplices, begin, end, centers, radii):
                 squares += x * x
                 centers[t, i] = origin[i] + x / shrink
         radii[t] = math.sqrt(squares) / shrink
-        if not abs(det[0]) > RELIABLE * product:
-            radii[t] = np.nan
 
 
 def circumcenters(points: np.ndarray, simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -66,7 +69,7 @@ def circumcenters(points: np.ndarray, simplices: np.ndarray) -> tuple[np.ndarray
     points : float64 (n, d)
         Finite; d is 2 or 3.
     simplices : int32 (m, d + 1)
-        Rows of points; none of the simplices is flat.
+        Rows of points. A flat simplex has a NaN center and an infinite radius.
     """
     sites, unit = scaled_sites(points)
     m, d = len(simplices), points.shape[1]
@@ -85,6 +88,8 @@ def _by_fractions(corners: np.ndarray) -> tuple[list[float], float]:
     sides = fractions(corners)
     squares = [sum((x * x for x in side), Fraction(0)) for side in sides]
     det = determinant(sides)
+    if det == 0:  # in a mesh of others
+        return [math.nan] * len(sides), math.inf
     if len(sides) == 2:
         p, q = sides
         normals = [[q[1], -q[0]], [-p[1], p[0]]]

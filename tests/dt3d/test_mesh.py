@@ -5,14 +5,8 @@ import sys
 import numpy as np
 import pytest
 
-from dt3d._mesh import hull_to_pyvista, show, to_pyvista, volumes
+from dt3d._mesh import hull_to_pyvista, show, to_pyvista
 from dt3d.files import check_mesh_path, read_mesh, read_points, write_mesh
-
-
-def test_volumes_have_the_sign_of_the_orientation(cube):
-    np.testing.assert_allclose(volumes(cube.points, cube.simplices), np.full(6, 1 / 6), rtol=1e-15)
-    np.testing.assert_allclose(volumes(cube.points, cube.simplices[:, [1, 0, 2, 3]]), np.full(6, -1 / 6))
-    assert volumes(cube.points, np.empty((0, 4), np.int32)).shape == (0,)
 
 
 def test_grid_keeps_numbers_and_carries_data(cube):
