@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import scanvec as sv
 
     from ._proof import Verification
+    from .alpha import AlphaComplex
     from .extrapolation import Outcome
     from .subset import Subset
     from .threaded2d.driver import Outcome as PlaneOutcome
@@ -372,6 +373,21 @@ class Delaunay(SciPyMembers):
             msg = f"alpha must be a radius, a number that is not negative, got {alpha!r}"
             raise ValueError(msg)
         return self.subset(self.circumradii <= alpha)
+
+    def alpha_complex(self) -> AlphaComplex:
+        """The simplices of every dimension with the squared radii at which they appear.
+
+        As GUDHI's ``AlphaComplex(points).create_simplex_tree()``, in arrays.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> dt3d.Delaunay([[0, 0], [2, 0], [0, 2]]).alpha_complex()
+        <dt3d.AlphaComplex: 3, 3, 1 simplices>
+        """
+        from .alpha import AlphaComplex
+
+        return AlphaComplex(self)
 
     def verify(self) -> Verification:
         """Check every invariant in exact arithmetic; print the outcome for the list.
