@@ -52,24 +52,47 @@ WORST_CONDITION = 1 / (1000 * np.finfo(np.float64).eps)
 
 
 def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
-    """SciPy's ``transform``, float64 (m, d + 1, d): inverse matrices, and the last vertices.
+    """SciPy's ``transform``, float64 (m, d + 1, d): gradients of weights, and the last vertices.
 
     NaN where the condition number of the matrix, by the sums of columns, exceeds `WORST_CONDITION`.
+    """
+    from .geometry.pairs import in_pieces
+
+    m, d = len(simplices), points.shape[1]
+    out = np.empty((m, d + 1, d))
+    gradients = weight_gradients(points, simplices)
+
+    def rows(begin: int, end: int) -> None:
+        corners = points[simplices[begin:end]]
+        sides = corners[:, :-1] - corners[:, -1:]
+        with np.errstate(over="ignore", invalid="ignore"):
+            condition = _norm(sides) * _norm(gradients[begin:end].swapaxes(1, 2))
+        out[begin:end, :d] = gradients[begin:end]
+        out[begin:end, :d][~(condition <= WORST_CONDITION)] = np.nan
+        out[begin:end, d] = corners[:, -1]
+
+    in_pieces(rows, m, LEAST_ROWS)
+    return out
+
+
+def weight_gradients(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """The gradients of the first d barycentric weights in each simplex, float64 (m, d, d).
+
+    They are the rows of the inverse of the matrix whose columns are the sides that end in the last vertex.
     """
     from .geometry.measures import measures
     from .geometry.pairs import in_pieces
 
     m, d = len(simplices), points.shape[1]
-    out = np.empty((m, d + 1, d))
+    out = np.empty((m, d, d))
     signed = math.factorial(d) * measures(points, simplices)  # never zero, where rounding would lose it
     if d == 3:
         signed = -signed  # the determinant of the sides that end in the last vertex
 
     def rows(begin: int, end: int) -> None:
         corners = points[simplices[begin:end]]
-        last = corners[:, -1]
-        sides = corners[:, :-1] - last[:, None]
-        inverse = out[begin:end, :d]
+        sides = corners[:, :-1] - corners[:, -1:]
+        inverse = out[begin:end]
         if d == 2:
             inverse[:, 0, 0], inverse[:, 0, 1] = sides[:, 1, 1], -sides[:, 1, 0]
             inverse[:, 1, 0], inverse[:, 1, 1] = -sides[:, 0, 1], sides[:, 0, 0]
@@ -78,9 +101,6 @@ def barycentric_transforms(points: np.ndarray, simplices: np.ndarray) -> np.ndar
                 inverse[:, k] = np.cross(sides[:, (k + 1) % 3], sides[:, (k + 2) % 3])
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             inverse /= signed[begin:end, None, None]
-            condition = _norm(sides) * _norm(inverse.swapaxes(1, 2))
-        inverse[~(condition <= WORST_CONDITION)] = np.nan
-        out[begin:end, d] = last
 
     in_pieces(rows, m, LEAST_ROWS)
     return out

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import threading
 import weakref
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -150,6 +151,17 @@ class Locator:
 
     def find_checked(self, points: np.ndarray, tol: float = 0.0) -> np.ndarray:
         """The same for float64 (k, d): int32 (k,). Of millions of points some are taken at a time."""
+        if tol == 0:
+            return self._found(points, lambda part, found: None, False)
+        return self._found(points, partial(self._admit, tol=tol), True)
+
+    def _found(
+        self, points: np.ndarray, outside: Callable[[np.ndarray, np.ndarray], object], beyond: bool
+    ) -> np.ndarray:
+        """Locate points, with ``beyond`` those outside the bounding box, too.
+
+        ``outside(part, found)`` may change what `_find` has written for a part of the points.
+        """
         at_a_time = min(len(points), POINTS_AT_A_TIME)
         require(f"locating {len(points)} points", 4 * len(points) + BYTES_PER_POINT * at_a_time)
         out = np.full(len(points), OUTSIDE, np.int32)
@@ -157,15 +169,23 @@ class Locator:
             # a copy is contiguous, and nobody else changes it
             part = np.array(points[begin : begin + POINTS_AT_A_TIME], order="C")
             # comparisons with NaN are false
-            within = (part >= self.low) & (part <= self.high) if tol == 0 else np.isfinite(part)
+            within = np.isfinite(part) if beyond else (part >= self.low) & (part <= self.high)
             rows = np.flatnonzero(within.all(axis=1))
             found = out[begin : begin + POINTS_AT_A_TIME]
             with self.lock:
                 self._find(part, rows[_along_curve(part[rows])], found)
-            if tol > 0:
-                self._admit(part, found, tol)
+            outside(part, found)
             np.maximum(found, OUTSIDE, out=found)
         return out
+
+    def nearby(self, points: np.ndarray) -> np.ndarray:
+        """The simplex that contains each point, or at which the walk to it left the hull: int32 (k,).
+
+        `OUTSIDE` for points that are not finite, and where no walk finds one that is outside.
+        """
+        return self._found(
+            points, lambda part, found: np.copyto(found, -2 - found, where=found < OUTSIDE), True
+        )
 
     def _admit(self, points: np.ndarray, found: np.ndarray, tol: float) -> None:
         """Put points that are as near as that into the simplices at which the walks to them left the hull."""

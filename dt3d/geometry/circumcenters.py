@@ -14,8 +14,8 @@ from .pairs import RELIABLE, cross, dot, extent, in_pieces, shrinking, sides_in_
 
 
 @cached_njit(nogil=True)
-def _circumcenters(points, simplices, begin, end, centers, radii):
-    """Write centers and radii; NaN where pairs leave the determinant open.
+def _circumcenters(points, simplices, begin, end, base, centers, radii):
+    """Write centers from the first vertex plus ``base`` times it, and radii, NaN where pairs leave them open.
 
     From the first vertex the center is (|p|^2 q' - |q|^2 p') / (2 p x q) in the plane, where (x, y)' is
     (y, -x), and (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (2 u . v x w) in space.
@@ -38,7 +38,7 @@ def _circumcenters(points, simplices, begin, end, centers, radii):
                 c = dd.subtract(dd.multiply(pp, q[j]), dd.multiply(qq, p[j]))
                 x = sign * (c[0] / det[0]) / 2.0
                 squares += x * x
-                centers[t, i] = origin[i] + x / shrink
+                centers[t, i] = base * origin[i] + x / shrink
         else:
             u = sides_in_space(points[row[1]], origin, shrink)
             v = sides_in_space(points[row[2]], origin, shrink)
@@ -54,7 +54,7 @@ def _circumcenters(points, simplices, begin, end, centers, radii):
                 c = dd.add(dd.add(dd.multiply(uu, vw[i]), dd.multiply(vv, wu[i])), dd.multiply(ww, uv[i]))
                 x = (c[0] / det[0]) / 2.0
                 squares += x * x
-                centers[t, i] = origin[i] + x / shrink
+                centers[t, i] = base * origin[i] + x / shrink
         radii[t] = math.sqrt(squares) / shrink
 
 
@@ -74,7 +74,7 @@ def circumcenters(points: np.ndarray, simplices: np.ndarray) -> tuple[np.ndarray
     sites, unit = scaled_sites(points)
     m, d = len(simplices), points.shape[1]
     centers, radii = np.empty((m, d)), np.empty(m)
-    in_pieces(lambda begin, end: _circumcenters(sites, simplices, begin, end, centers, radii), m)
+    in_pieces(lambda begin, end: _circumcenters(sites, simplices, begin, end, 1.0, centers, radii), m)
     for t in np.flatnonzero(np.isnan(radii)):
         centers[t], radii[t] = _by_fractions(sites[simplices[t]])
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
@@ -83,8 +83,21 @@ def circumcenters(points: np.ndarray, simplices: np.ndarray) -> tuple[np.ndarray
     return centers, radii
 
 
-def _by_fractions(corners: np.ndarray) -> tuple[list[float], float]:
-    """The center and the radius of one simplex, from exact numbers."""
+def offsets_of_centers(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """The center of each simplex's sphere less its first vertex, float64 (m, d).
+
+    They are not rounded as coordinates are. The points are scaled already, and none of the simplices is flat.
+    """
+    m, d = len(simplices), points.shape[1]
+    offsets, radii = np.empty((m, d)), np.empty(m)
+    in_pieces(lambda begin, end: _circumcenters(points, simplices, begin, end, 0.0, offsets, radii), m)
+    for t in np.flatnonzero(np.isnan(radii)):
+        offsets[t] = _by_fractions(points[simplices[t]], 0)[0]
+    return offsets
+
+
+def _by_fractions(corners: np.ndarray, base: int = 1) -> tuple[list[float], float]:
+    """The center, plus ``base`` times the first vertex, and the radius of one simplex, from exact numbers."""
     sides = fractions(corners)
     squares = [sum((x * x for x in side), Fraction(0)) for side in sides]
     det = determinant(sides)
@@ -100,7 +113,7 @@ def _by_fractions(corners: np.ndarray) -> tuple[list[float], float]:
         sum((s * normal[i] for s, normal in zip(squares, normals, strict=True)), Fraction(0)) / (2 * det)
         for i in range(len(sides))
     ]
-    center = [as_float(Fraction(x) + y) for x, y in zip(corners[0].tolist(), from_first, strict=True)]
+    center = [as_float(base * Fraction(x) + y) for x, y in zip(corners[0].tolist(), from_first, strict=True)]
     square = sum((x * x for x in from_first), Fraction(0))
     # the root of a fraction whose numerator and denominator are beyond float64
     half = (square.numerator.bit_length() - square.denominator.bit_length()) // 2
