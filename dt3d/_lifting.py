@@ -80,9 +80,10 @@ def weight_gradients(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
 
     They are the rows of the inverse of the matrix whose columns are the sides that end in the last vertex.
     """
-    from .geometry.measures import measures
+    from .geometry.measures import measures, scaled_sites
     from .geometry.pairs import in_pieces
 
+    points, unit = scaled_sites(points)
     m, d = len(simplices), points.shape[1]
     out = np.empty((m, d, d))
     signed = math.factorial(d) * measures(points, simplices)  # never zero, where rounding would lose it
@@ -101,6 +102,7 @@ def weight_gradients(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
                 inverse[:, k] = np.cross(sides[:, (k + 1) % 3], sides[:, (k + 2) % 3])
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             inverse /= signed[begin:end, None, None]
+            inverse /= unit
 
     in_pieces(rows, m, LEAST_ROWS)
     return out

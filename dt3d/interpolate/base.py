@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 class Interpolator:
     """A function of values at the sites of a triangulation.
 
+    Points and points to evaluate at may be given as a tuple of coordinates, too, as SciPy takes them.
+
     Attributes
     ----------
     tri : Delaunay or Subset
@@ -30,6 +32,9 @@ class Interpolator:
         The value outside.
     """
 
+    _derived: ClassVar[tuple[str, ...]] = ()
+    """Names of what is computed when it is first needed."""
+
     def __init__(
         self,
         points: npt.ArrayLike | Geometry,
@@ -41,11 +46,16 @@ class Interpolator:
         self._scale: np.ndarray | None = None
         if isinstance(points, Delaunay | Subset):
             if rescale:
-                msg = "rescale=True goes with points, got a triangulation, whose points cannot be scaled"
+                msg = (
+                    "Rescaling is not supported when passing a Delaunay triangulation as ``points``. Pass "
+                    "the points themselves, or leave rescale=True out"
+                )
                 raise ValueError(msg)
             self.tri: Geometry = points
             self.points = points.points
         else:
+            if isinstance(points, tuple):  # of coordinates, as in SciPy
+                points = np.stack(np.broadcast_arrays(*points), axis=-1)
             self.points = check_points(cast(npt.ArrayLike, points))
             sites = self.points
             if rescale:
@@ -125,6 +135,10 @@ class Interpolator:
 
     def _located(self, points: np.ndarray) -> np.ndarray:
         return self.tri.find_simplex(points)
+
+    def __getstate__(self) -> dict[str, object]:
+        """What a pickle has: all but what can be computed again."""
+        return {name: value for name, value in self.__dict__.items() if name not in self._derived}
 
     def __repr__(self) -> str:
         """Of how many sites."""

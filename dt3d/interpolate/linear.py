@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -56,6 +57,8 @@ class Linear(Interpolator):
     ([1.0, nan], [1.0, 1.5], [1.0, 2.0])
     """
 
+    _derived: ClassVar[tuple[str, ...]] = ("_slopes",)
+
     def _evaluate(self, points: np.ndarray, columns: np.ndarray) -> np.ndarray:
         tri, found = self.tri, self._located(points)
         weights = barycentric_weights(tri.points, tri.simplices, found, points)
@@ -73,9 +76,8 @@ class Linear(Interpolator):
 
         corners = self._columns()[self.tri.simplices]
         by_weight = corners[:, :-1] - corners[:, -1:]
-        slopes: np.ndarray = np.einsum(
-            "tkc,tkd->tcd", by_weight, weight_gradients(self.tri.points, self.tri.simplices)
-        )
+        of_weights = weight_gradients(self.tri.points, self.tri.simplices)
+        slopes: np.ndarray = np.einsum("tkc,tkd->tcd", by_weight, of_weights)
         return slopes if self._scale is None else slopes / self._scale
 
     def gradient(self, *xi: npt.ArrayLike) -> np.ndarray:

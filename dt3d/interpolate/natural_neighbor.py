@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import threading
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -80,6 +82,8 @@ class NaturalNeighbor(Interpolator):
         if not isinstance(self.tri, Delaunay):
             msg = "NaturalNeighbor needs a whole triangulation, got a part of one; pass part.whole"
             raise ValueError(msg)
+
+    _derived: ClassVar[tuple[str, ...]] = ("_arrays", "_scratch")
 
     def weights(self, *xi: npt.ArrayLike) -> scipy.sparse.csr_array:
         """The weight of each site at each point, as a sparse matrix.
@@ -164,6 +168,12 @@ class NaturalNeighbor(Interpolator):
         """Counts per point, int32 (k,), and all neighbours, weights and derivatives, one after the other."""
         announce_compilation()
         found = self.tri.find_simplex(points)
+        with _ONE.at_a_time:
+            return self._weights_at(points, found, slopes)
+
+    def _weights_at(
+        self, points: np.ndarray, found: np.ndarray, slopes: bool
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         unit = self._arrays[2]
         queries = np.ascontiguousarray(points if unit == 1.0 else points / unit)
         pieces = max(1, min(len(self._scratch), len(points) // LEAST_POINTS))
@@ -209,6 +219,22 @@ class NaturalNeighbor(Interpolator):
                 at = -1 - at
                 self._scratch[thread] = _scratch(cells, offsets, len(self.points), 4 * len(scratch.cavity))
             begin = at
+
+
+class _One:
+    """A lock: rows for points at hand, and the threads' memory, have one user."""
+
+    def __init__(self) -> None:
+        self.renew()
+
+    def renew(self) -> None:
+        self.at_a_time = threading.Lock()
+
+
+_ONE = _One()
+
+if hasattr(os, "register_at_fork"):  # after a fork the thread that had the lock is not there to give it back
+    os.register_at_fork(after_in_child=_ONE.renew)
 
 
 def _scratch(cells: Complex, offsets: np.ndarray, n: int, most: int) -> Scratch:

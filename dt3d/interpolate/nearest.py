@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -93,6 +94,8 @@ class Nearest(Interpolator):
         """
         points, shape = self._queries(xi)
         return self._nearest(points).reshape(shape)
+
+    _derived: ClassVar[tuple[str, ...]] = ("_graph",)
 
     @cached_property
     def _graph(self) -> tuple[np.ndarray, np.ndarray]:

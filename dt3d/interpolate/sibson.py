@@ -3,11 +3,11 @@
 R. Sibson: A vector identity for the Dirichlet tessellation, Mathematical Proceedings of the Cambridge
 Philosophical Society 87, 1980. Inserting the point would remove the simplices in whose spheres it lies, its
 cavity, and join it with the cavity's boundary. The size of a cell is a sum over the facets at its site v,
-with the centers p and q of the simplices on both sides: of det(p - v, q - v) / 2 over edges in the plane, of
-det(u - w, p - v, q - v) / 12 over triangles u, v, w in space. So what a cell loses is that sum over the
-facets of the cavity's simplices less that over the new facets; at the boundary of the cavity p is the center
-on the inner side and q the new one. No center of a flat simplex occurs, as it does in D. Watson's formula
-(Contouring, 1992).
+with the centers p and q of the simplices on both sides: in space a third of |q - p| times the part of the triangle
+that is nearer to v than to its other corners, signed; in the plane a quarter of |q - p| times the edge. So what
+a cell loses is that sum over the facets of the cavity's simplices less that over the new facets; at the
+boundary of the cavity p is the center on the inner side and q the new one. No center of a flat simplex occurs,
+as it does in D. Watson's formula (Contouring, 1992), and centers that are far away do no harm.
 """
 
 from __future__ import annotations
@@ -169,9 +169,12 @@ def _from(rows, v, x):
 
 
 @cached_njit
-def _half_det(p, q, v):
-    """det(p - v, q - v) / 2 in the plane."""
-    return ((p[0] - v[0]) * (q[1] - v[1]) - (p[1] - v[1]) * (q[0] - v[0])) / 2.0
+def _quarter(a, b, p, q):
+    """What the edge from a to b gives the cells of both, with the centers p on its left and q on its right.
+
+    The two triangles of a, or b, and the piece of the cells' border from p to q, signed: |b - a| |q - p| / 4.
+    """
+    return ((b[1] - a[1]) * (q[0] - p[0]) - (b[0] - a[0]) * (q[1] - p[1])) / 4.0
 
 
 @cached_njit
@@ -196,15 +199,17 @@ def _cells_in_plane(cells, y, stamp, sizes, scratch):
                 continue
             q = _old_center(cells, scratch.offsets, u, y)
             a, b = simplices[t, (k + 1) % 3], simplices[t, (k + 2) % 3]
-            taken[scratch.place[a]] += _half_det(q, p, _from(rows, a, y))
-            taken[scratch.place[b]] += _half_det(p, q, _from(rows, b, y))
+            size = _quarter(_from(rows, a, y), _from(rows, b, y), p, q)
+            taken[scratch.place[a]] += size
+            taken[scratch.place[b]] += size
     for i in range(open_facets):
         t, k = scratch.facets[i]
         p = _old_center(cells, scratch.offsets, t, y)
         q = scratch.centers[i, 0], scratch.centers[i, 1]
         a, b = simplices[t, (k + 1) % 3], simplices[t, (k + 2) % 3]
-        taken[scratch.place[a]] += _half_det(q, p, _from(rows, a, y))
-        taken[scratch.place[b]] += _half_det(p, q, _from(rows, b, y))
+        size = _quarter(_from(rows, a, y), _from(rows, b, y), p, q)
+        taken[scratch.place[a]] += size
+        taken[scratch.place[b]] += size
         scratch.sides[scratch.place[a], 0] = i  # the new triangle to the right of the edge from a to y
         scratch.sides[scratch.place[b], 1] = i  # and that to the left
     for i in range(number):
@@ -212,8 +217,7 @@ def _cells_in_plane(cells, y, stamp, sizes, scratch):
         p = scratch.centers[right, 0], scratch.centers[right, 1]
         q = scratch.centers[left, 0], scratch.centers[left, 1]
         v = _from(rows, scratch.ring[i], y)
-        # the edge from v to y has the left triangle on its right
-        taken[i] -= _half_det(p, q, v)
+        taken[i] -= _quarter(v, (0.0, 0.0), q, p)
         ratio = math.hypot(p[0] - q[0], p[1] - q[1]) / math.hypot(v[0], v[1])
         growth[i, 0], growth[i, 1] = ratio * (p[0] + q[0]) / 2.0, ratio * (p[1] + q[1]) / 2.0
     return number
@@ -240,12 +244,27 @@ def _from_in_space(rows, v, x):
 
 
 @cached_njit
-def _twelfth_det(j, k, p, q, v):
-    """det(j - k, p - v, q - v) / 12 in space."""
-    a0, a1, a2 = j[0] - k[0], j[1] - k[1], j[2] - k[2]
-    b0, b1, b2 = p[0] - v[0], p[1] - v[1], p[2] - v[2]
-    c0, c1, c2 = q[0] - v[0], q[1] - v[1], q[2] - v[2]
-    return (a0 * (b1 * c2 - b2 * c1) + a1 * (b2 * c0 - b0 * c2) + a2 * (b0 * c1 - b1 * c0)) / 12.0
+def _sixth(u, v, p, q):
+    """What a triangle with the sides u and v gives the cells of its three corners, signed.
+
+    p and q are the centers on its two sides, q on the one from which it is counter-clockwise. Each corner gets
+    the two tetrahedra of itself, the piece of the cells' border from p to q, and half of each side.
+    """
+    n0, n1, n2 = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+    nn = n0 * n0 + n1 * n1 + n2 * n2
+    # the piece is parallel to the normal; that its ends may be far away does no harm
+    height = ((q[0] - p[0]) * n0 + (q[1] - p[1]) * n1 + (q[2] - p[2]) * n2) / 24.0
+    uu, vv = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+    uv = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    # an edge gives both of its ends |edge|^2 cot / 8 of the triangle, with the angle opposite; these are the
+    # cotangents times the root of nn
+    first, second, third = uv, uu - uv, vv - uv
+    ww, scale = uu + vv - 2.0 * uv, height / nn
+    return (
+        scale * (uu * third + vv * second),
+        scale * (uu * third + ww * first),
+        scale * (vv * second + ww * first),
+    )
 
 
 @cached_njit
@@ -264,21 +283,22 @@ def _outward(simplices, t, k):
 def _add_facet(rows, ends, p, q, y, scratch):
     """Add a facet of three sites, ccw from the side of q, to what is taken of their cells."""
     a, b, c = ends
-    u, v, w = _from_in_space(rows, a, y), _from_in_space(rows, b, y), _from_in_space(rows, c, y)
-    scratch.taken[scratch.place[a]] += _twelfth_det(v, w, p, q, u)
-    scratch.taken[scratch.place[b]] += _twelfth_det(w, u, p, q, v)
-    scratch.taken[scratch.place[c]] += _twelfth_det(u, v, p, q, w)
+    sizes = _sixth(_from_in_space(rows, b, rows[a]), _from_in_space(rows, c, rows[a]), p, q)
+    scratch.taken[scratch.place[a]] += sizes[0]
+    scratch.taken[scratch.place[b]] += sizes[1]
+    scratch.taken[scratch.place[c]] += sizes[2]
 
 
 @cached_njit
 def _add_new_facet(rows, ends, first, second, y, scratch):
-    """Take off what the new facet of y and two sites gives: of ``first`` it is (b, a, y) from outside."""
+    """Take off what the new facet of y and two sites gives: of ``first`` it is (y, b, a) from outside."""
     a, b = ends
     p = scratch.centers[first, 0], scratch.centers[first, 1], scratch.centers[first, 2]
     q = scratch.centers[second, 0], scratch.centers[second, 1], scratch.centers[second, 2]
-    u, v, zero = _from_in_space(rows, a, y), _from_in_space(rows, b, y), (0.0, 0.0, 0.0)
-    scratch.taken[scratch.place[b]] -= _twelfth_det(u, zero, p, q, v)
-    scratch.taken[scratch.place[a]] -= _twelfth_det(zero, v, p, q, u)
+    u, v = _from_in_space(rows, a, y), _from_in_space(rows, b, y)
+    sizes = _sixth(v, u, p, q)
+    scratch.taken[scratch.place[b]] -= sizes[1]
+    scratch.taken[scratch.place[a]] -= sizes[2]
     _add_growth(scratch.growth[scratch.place[a]], u, p, q, -1.0)
     _add_growth(scratch.growth[scratch.place[b]], v, p, q, 1.0)
 

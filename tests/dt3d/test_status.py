@@ -212,7 +212,7 @@ sys.exit(main())
     ("module", "words"),
     [
         ("dt3d.cli", []),  # before anything of ours
-        ("jax", []),  # while libraries load
+        ("cyclopts", []),  # while libraries load
         ("dt3d.plot", ["view", "none.vtu", "--screenshot", "none.png"]),  # within one of them
         ("the end", ["experiment"]),
     ],

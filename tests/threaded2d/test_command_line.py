@@ -172,7 +172,7 @@ def test_coordinates_of_all_magnitudes_survive_obj(tmp_path):
 def test_the_advice_for_sites_on_a_plane_of_space(columns):
     flat = np.full((len(POINTS), 3), 7.0)
     flat[:, columns] = POINTS
-    advice = re.escape("dt3d.threaded2d.Delaunay: of points[:, :2], or of other two columns")
+    advice = re.escape("in the plane pass two coordinates, points[:, :2], or other two columns")
     with pytest.raises(dt3d.DegenerateInputError, match=advice) as caught:
         dt3d.Delaunay(flat)
     assert caught.value.dimension == 2
@@ -183,4 +183,4 @@ def test_the_advice_for_sites_on_a_plane_of_space(columns):
 def test_no_such_advice_for_sites_on_a_line():
     with pytest.raises(dt3d.DegenerateInputError) as caught:
         dt3d.Delaunay(np.outer(np.arange(9), [1.0, 2, 3]))
-    assert "threaded2d" not in str(caught.value)
+    assert "two coordinates" not in str(caught.value)

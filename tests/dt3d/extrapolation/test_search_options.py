@@ -92,5 +92,5 @@ def test_options_that_do_not_go_together(options, message):
 def test_an_option_that_there_is_not():
     with pytest.raises(TypeError, match="no option 'site_per_cell'; did you mean 'sites_per_cell'"):
         dt3d.Delaunay(POINTS, preset="teng1993", site_per_cell=4)
-    with pytest.raises(TypeError, match="no option 'qhull_options'; there are also"):
-        dt3d.Delaunay(POINTS, qhull_options="QJ")
+    with pytest.raises(TypeError, match="no option 'joggle'; there are also"):
+        dt3d.Delaunay(POINTS, joggle=True)
