@@ -57,8 +57,9 @@ class NaturalNeighbor(Interpolator):
 
     Notes
     -----
-    On the convex hull, where both cells have no bounds, values are limits from inside, to about 1e-11 of the
-    local spacing.
+    On the convex hull, where what is taken has no bounds, values are limits from inside, to about 1e-11 of
+    the local spacing, and there is no gradient. Where a cell is more than a billion times as long as wide,
+    and rounding spoils its size, the value is that of linear interpolation.
 
     Examples
     --------
@@ -115,8 +116,8 @@ class NaturalNeighbor(Interpolator):
         Returns
         -------
         float64 or complex128 (..., d)
-            The shape of the values there, and the d derivatives. NaN outside, and at sites, where the
-            interpolant has none.
+            The shape of the values there, and the d derivatives. NaN outside, at sites, where the
+            interpolant has none, and on the hull.
         """
         points, shape = self._queries(xi)
         columns, d = self._columns(), self.tri.ndim

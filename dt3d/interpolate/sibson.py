@@ -3,11 +3,11 @@
 R. Sibson: A vector identity for the Dirichlet tessellation, Mathematical Proceedings of the Cambridge
 Philosophical Society 87, 1980. Inserting the point would remove the simplices in whose spheres it lies, its
 cavity, and join it with the cavity's boundary. The size of a cell is a sum over the facets at its site v,
-with the centers p and q of the simplices on both sides: in space a third of |q - p| times the part of the triangle
-that is nearer to v than to its other corners, signed; in the plane a quarter of |q - p| times the edge. So what
-a cell loses is that sum over the facets of the cavity's simplices less that over the new facets; at the
-boundary of the cavity p is the center on the inner side and q the new one. No center of a flat simplex occurs,
-as it does in D. Watson's formula (Contouring, 1992), and centers that are far away do no harm.
+with the centers p and q of the simplices on both sides: in space a third of |q - p| times the part of the
+triangle that is nearer to v than to its other corners, signed; in the plane a quarter of |q - p| times the
+edge. So what a cell loses is that sum over the facets of the cavity's simplices less that over the new
+facets; at the boundary of the cavity p is the center on the inner side and q the new one. No center of a flat
+simplex occurs, as it does in D. Watson's formula (Contouring, 1992), and centers far away do no harm.
 """
 
 from __future__ import annotations
@@ -21,12 +21,15 @@ from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from .._star import side_of_facet
 from .._topology import OUTSIDE
+from ..geometry.barycentric import plain_weights, weights_of_pairs
 from ..geometry.pairs import RELIABLE, cross, dot, extent, shrinking, sides_in_plane, sides_in_space
 from ..predicates import double_double as dd
 from ..predicates import plane, space
 
 MOST_SIMPLICES = 1024  # of a cavity at first; the arrays grow
 WELL_SHAPED = 2.0**-16  # as in `dt3d.geometry.barycentric`
+
+WORST_SUM = 1e-10  # of a neighbour's distance: what the weighted sum of neighbours may be off
 
 FULL, FLAT = -1, -2  # no room for a cavity, and a new simplex that is flat
 
@@ -71,10 +74,12 @@ def _conflict(cells, t, q, w):
 def _cavity(cells, t, q, w, seen, stamp, cavity, facets):
     """Write the simplices in conflict with row q, and their facets on the boundary, (simplex, k).
 
-    Returns how many there are of both; `FULL` if there is no room, `FLAT` if q lies on a facet of the hull.
+    Returns how many there are of both; `FULL` if there is no room. If q lies on the hull, `FLAT`, and whether
+    several facets of the hull around it lie on one plane.
     """
     corners = cells.simplices.shape[1]
     cavity[0], count, done, open_facets = t, 1, 0, 0
+    flat, first, one_plane = OUTSIDE, 0, 0
     seen[t] = stamp
     while done < count:
         t = cavity[done]
@@ -93,11 +98,20 @@ def _cavity(cells, t, q, w, seen, stamp, cavity, facets):
                     continue
                 seen[u] = -stamp
             if u == OUTSIDE and side_of_facet(cells, t, k, q, w) == 0:
-                return FLAT, FLAT
+                if flat == OUTSIDE:
+                    flat, first = t, k
+                else:
+                    beside = True
+                    for i in range(corners):
+                        v = cells.simplices[t, i]
+                        beside = beside and (i == k or side_of_facet(cells, flat, first, v, w) == 0)
+                    one_plane = max(one_plane, beside)
             if open_facets == len(facets):
                 return FULL, FULL
             facets[open_facets, 0], facets[open_facets, 1] = t, k
             open_facets += 1
+    if flat != OUTSIDE:
+        return FLAT, one_plane
     return count, open_facets
 
 
@@ -172,7 +186,7 @@ def _from(rows, v, x):
 def _quarter(a, b, p, q):
     """What the edge from a to b gives the cells of both, with the centers p on its left and q on its right.
 
-    The two triangles of a, or b, and the piece of the cells' border from p to q, signed: |b - a| |q - p| / 4.
+    The two triangles of a, or b, and the piece of the cells' border from p to q: |b - a| |q - p| / 4, signed.
     """
     return ((b[1] - a[1]) * (q[0] - p[0]) - (b[0] - a[0]) * (q[1] - p[1])) / 4.0
 
@@ -247,8 +261,8 @@ def _from_in_space(rows, v, x):
 def _sixth(u, v, p, q):
     """What a triangle with the sides u and v gives the cells of its three corners, signed.
 
-    p and q are the centers on its two sides, q on the one from which it is counter-clockwise. Each corner gets
-    the two tetrahedra of itself, the piece of the cells' border from p to q, and half of each side.
+    p and q are the centers on its two sides, q on the one from which it is counter-clockwise. Each corner
+    gets the two tetrahedra of itself, the piece of the cells' border from p to q, and half of each side.
     """
     n0, n1, n2 = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
     nn = n0 * n0 + n1 * n1 + n2 * n2
@@ -400,9 +414,13 @@ def _move_inwards(cells, t, x, part, y):
 def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
     """Write neighbours and weights of points begin .. end-1, in simplices found, one after the other.
 
-    Where a point lies on the hull, cells without bounds are taken, and it is moved inwards by a part of
-    2^-36 of the way to the middle of its simplex: the limit, to that accuracy. For a point in no simplex
-    there is nothing; for one of which nothing can be computed the count is -1.
+    For a point in no simplex there is nothing. On the hull what is taken has no bounds, and weights are
+    limits from inside: the barycentric ones where no sites but the facet's are on its plane, and always in
+    the plane itself; else those of the point moved inwards by a part of 2^-36 of the way to the middle of its
+    simplex.
+
+    The weights have to give the point itself as the sum of its neighbours. Where they do not, as rounding has
+    spoilt sizes (cells a billion times as long as wide), the barycentric ones take their place.
 
     Returns
     -------
@@ -437,6 +455,8 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
             if sizes[0] == FULL:
                 scratch.stamp[0] = stamp
                 return -1 - i, written
+            if sizes[0] == FLAT and (d == 2 or sizes[1] == 0):
+                break
             if sizes[0] == FLAT or not _new_centers(cells, y, sizes[1], scratch):
                 continue
             if d == 2:
@@ -444,32 +464,60 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
             else:
                 number = _cells_in_space(cells, y, stamp, sizes, scratch)
             break
-        out.counts[i] = number
         for k in range(number):
             scratch.place[scratch.ring[k]] = -1
-        if number > 0:
-            _write(number, written, scratch, out)
-            written += number
+        if number < 0 or not _write(cells, x, number, written, scratch, out):
+            number = d + 1
+            _write_barycentric(cells, t, x, written, out)
+        out.counts[i] = number
+        written += number
     scratch.stamp[0] = stamp
     return end, written
 
 
 @cached_njit
-def _write(number, written, scratch, out):
-    """Write the weights of one point, whose sum is 1, and the derivatives of these, whose sum is 0."""
-    total = 0.0
+def _write_barycentric(cells, t, x, written, out):
+    """Write the weights of the vertices of simplex t; NaN as derivatives."""
+    corners = cells.simplices.shape[1]
+    row, weights = cells.simplices[t], out.weights[written : written + corners]
+    if not plain_weights(cells.rows, row, x, weights) and not weights_of_pairs(cells.rows, row, x, weights):
+        weights[:] = 1.0 / corners  # the simplex is flat but for 2^-45 of its size
+    out.indices[written : written + corners] = row
+    for k in range(corners):
+        weights[k] = max(weights[k], 0.0)
+        if len(out.slopes) > 1:
+            out.slopes[written + k] = np.nan
+
+
+@cached_njit
+def _write(cells, x, number, written, scratch, out):
+    """Write the weights of one point, whose sum is 1, and the derivatives of these, whose sum is 0.
+
+    Returns whether the weights give the point as the sum of its neighbours.
+    """
+    total, d = 0.0, len(x)
     for k in range(number):
         scratch.taken[k] = max(scratch.taken[k], 0.0)  # rounding may have taken less than nothing
         total += scratch.taken[k]
+    if not 0.0 < total < np.inf:
+        return False
     for k in range(number):
         out.indices[written + k] = scratch.ring[k]
         out.weights[written + k] = scratch.taken[k] / total
+    for i in range(d):
+        off, size = 0.0, 0.0
+        for k in range(number):
+            side = cells.rows[scratch.ring[k], i] - x[i]
+            off += out.weights[written + k] * side
+            size = max(size, abs(side))
+        if not abs(off) <= WORST_SUM * size:
+            return False
     if len(out.slopes) > 1:
-        for i in range(out.slopes.shape[1]):
+        for i in range(d):
             growth = 0.0
             for k in range(number):
                 growth += scratch.growth[k, i]
             for k in range(number):
-                out.slopes[written + k, i] = (
-                    scratch.growth[k, i] - out.weights[written + k] * growth
-                ) / total
+                slope = scratch.growth[k, i] - out.weights[written + k] * growth
+                out.slopes[written + k, i] = slope / total
+    return True
