@@ -28,6 +28,7 @@ def pairs(rounds: int, quick: bool) -> list[Pair]:
 def _beside_scipy(d: int, n: int, k: int, rounds: int) -> list[Pair]:
     from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
+    from ..delaunay import Delaunay
     from ..interpolate import Linear, Nearest
 
     rng = np.random.default_rng(0)
@@ -36,14 +37,14 @@ def _beside_scipy(d: int, n: int, k: int, rounds: int) -> list[Pair]:
     where = "in space" if d == 3 else "in the plane"
     size = f"{k:,} points, {n:,} sites"
     found = []
-    linear = Linear(points, values)
-    theirs = LinearNDInterpolator(linear.tri.to_scipy(), values)
+    tri = Delaunay(points)
+    linear, theirs = Linear(tri, values), LinearNDInterpolator(tri.to_scipy(), values)
     part = xi[: k // 10]
     seconds = in_turn(lambda: linear(xi), lambda: theirs(part), rounds)
     apart = np.nanmax(np.abs(linear(part) - theirs(part)))
     tenfold = tuple(10 * s for s in seconds[1])
     found.append(Pair(f"linear {where}", size, "scipy", seconds[0], tenfold, f"apart by at most {apart:.1g}"))
-    nearest, other = Nearest(linear.tri, values), NearestNDInterpolator(points, values)
+    nearest, other = Nearest(tri, values), NearestNDInterpolator(points, values)
     seconds = in_turn(lambda: nearest(xi), lambda: other(xi), rounds)
     unequal = int((nearest(xi) != other(xi)).sum())
     found.append(Pair(f"nearest {where}", size, "scipy", *seconds, f"{unequal} of the values differ"))

@@ -62,7 +62,7 @@ def test_linear_functions_are_reproduced(kind, d):
         assert np.abs(got - wanted)[inside].max() < accuracy, name
         plain = inside.copy()
         plain[300:] = False
-        if name != "far away":
+        if name not in ("far away", "clusters"):
             assert np.abs(got - wanted)[plain].max() < 1e-12, name
         slopes = f.gradient(xi[plain])
         if name == "clusters":  # nearly flat simplices between clusters
