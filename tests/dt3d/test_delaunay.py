@@ -101,6 +101,7 @@ def test_methods_and_seeds_agree_on_sites_in_general_position():
         np.testing.assert_array_equal(canonical(dt3d.Delaunay(points, **options).simplices), want)
 
 
+@pytest.mark.slow
 def test_machines_report_the_same_counts():
     points = np.random.default_rng(4).random((300, 3))
     runs = [dt3d.Delaunay(points, machine=make()) for make in MACHINES.values()]

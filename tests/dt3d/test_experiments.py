@@ -92,6 +92,7 @@ def test_brute_force_finds_the_fourth_vertices():
     assert (hull == -1).all()
 
 
+@pytest.mark.slow
 def test_brute_force_is_counted():
     size = run(125)
     assert (

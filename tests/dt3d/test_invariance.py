@@ -75,12 +75,10 @@ def test_mirrored_axes(method):
     holds()
 
 
-MORE = ["integer sphere 81", "tenths", "random integers"]
+MORE = ["skew lines", "integer sphere 81", "tenths", "random integers"]
 
 
-@pytest.mark.parametrize(
-    "name", ["grid 4", "skew lines", *(pytest.param(name, marks=pytest.mark.slow) for name in MORE)]
-)
+@pytest.mark.parametrize("name", ["grid 4", *(pytest.param(name, marks=pytest.mark.slow) for name in MORE)])
 def test_machines_give_equal_arrays_for_degenerate_sets(name):
     machines = sv.Device(), sv.Simulated(processors=3), sv.Simulated(processors=32)
     first, *others = (

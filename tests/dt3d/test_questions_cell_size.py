@@ -23,6 +23,7 @@ def runs():
     return {pair: run(points, *pair, nodes=(32,)) for pair in ((2, 2), (2, 16), (16, 16))}
 
 
+@pytest.mark.slow
 def test_the_options_change_what_is_counted(runs):
     small, wide, large = runs.values()
     # cells decide which sites are looked at, warrants only how
@@ -36,6 +37,7 @@ def test_the_options_change_what_is_counted(runs):
     assert large.really == pytest.approx(125 / 8)
 
 
+@pytest.mark.slow
 def test_the_best_is_the_least_of_all(runs):
     found = balances(list(runs.values()))
     assert {b.processors for b in found} == {32}

@@ -19,6 +19,7 @@ def measured():
     return loads(500, SEED)
 
 
+@pytest.mark.slow
 def test_parts_and_tallies_add_up(measured):
     for by in measured.values():
         for nodes in NODES:
@@ -31,6 +32,7 @@ def test_parts_and_tallies_add_up(measured):
     assert parts(by[256], sv.CM5)["route"] < parts(by[32], sv.CM5)["route"] / 4
 
 
+@pytest.mark.slow
 def test_a_refit_finds_the_cost_that_was_there(measured, monkeypatch):
     """Times that a model makes, with 2 us a step and node on top, are found again."""
     tallies = {name: {n: tally(ledger) for n, ledger in by.items()} for name, by in measured.items()}
@@ -59,6 +61,7 @@ def test_no_fixed_cost_explains_the_papers_times():
         assert sign * (times[256] / law.seconds(256) - 1) > 0.03
 
 
+@pytest.mark.slow
 def test_the_experiment(tmp_path, measured, monkeypatch):
     monkeypatch.setattr(module, "loads", lambda *arguments: measured)
     console = Console(file=io.StringIO(), width=80)

@@ -42,6 +42,7 @@ def test_exponent():
     assert exponent(n, [5 * np.log2(k) ** 1.5 for k in n]) == pytest.approx(1.5)
 
 
+@pytest.mark.slow
 def test_the_experiment(tmp_path):
     console = Console(file=io.StringIO(), width=80)
     rows = module.weak_scaling(tmp_path, console, most_sites=256)

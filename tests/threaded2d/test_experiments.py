@@ -33,7 +33,12 @@ def test_all_are_here():
     assert {f"kohout-{name}" for name in SMALL} == {name for name in EXPERIMENTS if name.startswith("kohout")}
 
 
-@pytest.mark.parametrize("name", SMALL)
+SLOW = ("preset", "interleave", "crater")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in SMALL]
+)
 def test_experiment(name, tmp_path):
     with open(tmp_path / "screen", "w") as file:
         console = Console(file=file, record=True, width=200)

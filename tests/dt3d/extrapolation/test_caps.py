@@ -11,6 +11,7 @@ from dt3d.extrapolation.points import Point, dot, sub
 from dt3d.extrapolation.signed_distance import circumsphere, frame
 
 
+@pytest.mark.slow
 def test_sites_of_the_cap_are_in_its_box():
     rng = np.random.default_rng(0)
     sites = rng.random((400, 3))

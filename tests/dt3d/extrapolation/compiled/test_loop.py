@@ -23,6 +23,7 @@ def test_uniform_sites():
     )
 
 
+@pytest.mark.slow
 def test_a_simulated_machine_gives_equal_arrays():
     points = random_set(2500)
     ours = dt3d.Delaunay(points, machine=sv.Device())
