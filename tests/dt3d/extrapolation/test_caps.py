@@ -3,6 +3,7 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 
 from dt3d.extrapolation.boxes import cell_coordinates
 from dt3d.extrapolation.buckets import cubic_grid
