@@ -43,6 +43,9 @@ __all__ = [
     "__version__",
 ]
 
+# modules that are loaded as attributes: ``import dt3d; dt3d.interpolate``
+_SUBMODULES = ("files", "interpolate", "jax", "predicates", "threaded2d", "verification")
+
 _MODULES = {
     "OUTSIDE": "_topology",
     "Delaunay": "delaunay",
@@ -55,8 +58,10 @@ _MODULES = {
 def __getattr__(name: str) -> object:
     """Load a public name when it is first used.
 
-    JAX takes a second to load, and the command line has to answer Ctrl-C before that.
+    Libraries take their time to load, and the command line has to answer Ctrl-C before that.
     """
+    if name in _SUBMODULES:
+        return import_module(f"{__name__}.{name}")
     if name not in _MODULES:
         msg = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(msg)
@@ -66,4 +71,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, *_SUBMODULES})

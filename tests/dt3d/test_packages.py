@@ -20,6 +20,12 @@ def test_importing_dt3d_loads_no_viewer_and_no_command_line():
     assert modules.isdisjoint(viewers | {"numba", "rich", "cyclopts", "scipy", "jax", "scanvec"})
 
 
+def test_modules_are_attributes():
+    code = "import dt3d; print(dt3d.interpolate.Linear, dt3d.threaded2d.Delaunay, dt3d.files.read_points)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert {"interpolate", "threaded2d", "jax"} <= set(dir(dt3d))
+
+
 def test_inserting_loads_no_jax():
     code = """import numpy, dt3d
 points = numpy.random.default_rng(0).random((50, 3))
