@@ -17,6 +17,7 @@ from .._numba.threads import run_short_tasks
 from .._results import frozen
 from .._star import Complex
 from ..delaunay import Delaunay
+from ..geometry.barycentric import barycentric_weights
 from ..geometry.circumcenters import offsets_of_centers
 from ..geometry.measures import scaled_sites
 from ..predicates import work_array
@@ -189,7 +190,22 @@ class NaturalNeighbor(Interpolator):
         )
         done = [part for piece in parts for part in piece]
         indices, weights, gradients = (np.concatenate(arrays) for arrays in zip(*done, strict=True))
+        self._complete(weights, counts, queries, found)
         return counts, indices, weights, gradients / unit if slopes else gradients
+
+    def _complete(
+        self, weights: np.ndarray, counts: np.ndarray, queries: np.ndarray, found: np.ndarray
+    ) -> None:
+        """Write the barycentric weights of points in simplices so flat that pairs of doubles do not tell."""
+        left_open = np.flatnonzero(np.isinf(weights))
+        if not len(left_open):
+            return
+        ends = np.cumsum(counts)
+        rows = np.unique(np.searchsorted(ends, left_open, side="right"))
+        corners = self.tri.ndim + 1
+        sites = self._arrays[0].rows[: len(self.points)]
+        exact = barycentric_weights(sites, self.tri.simplices, found[rows], queries[rows])
+        weights[(ends[rows] - corners)[:, None] + np.arange(corners)] = np.maximum(exact, 0.0)
 
     def _piece(
         self,

@@ -61,7 +61,7 @@ class Weights(NamedTuple):
     slopes: np.ndarray  # float64 (room, d), or (1, d) where they are not wanted
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _conflict(cells, t, q, w):
     """Whether row q lies in the perturbed sphere of simplex t."""
     row = cells.simplices[t]
@@ -70,7 +70,7 @@ def _conflict(cells, t, q, w):
     return space.inside(cells.rows, (row[0], row[1], row[2], row[3]), q, w)
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _cavity(cells, t, q, w, seen, stamp, cavity, facets):
     """Write the simplices in conflict with row q, and their facets on the boundary, (simplex, k).
 
@@ -115,7 +115,7 @@ def _cavity(cells, t, q, w, seen, stamp, cavity, facets):
     return count, open_facets
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _center_in_plane(rows, a, b, x, out):
     """Write the center of the circle through rows a, b and point x, from x; whether that is reliable."""
     px, py, qx, qy = rows[a, 0] - x[0], rows[a, 1] - x[1], rows[b, 0] - x[0], rows[b, 1] - x[1]
@@ -135,7 +135,7 @@ def _center_in_plane(rows, a, b, x, out):
     return True
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _center_in_space(rows, a, b, c, x, out):
     """Write the center of the sphere through rows a, b, c and point x, from x; whether that is reliable."""
     ux, uy, uz = rows[a, 0] - x[0], rows[a, 1] - x[1], rows[a, 2] - x[2]
@@ -166,7 +166,7 @@ def _center_in_space(rows, a, b, c, x, out):
     return True
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _local(v, place, ring, count):
     """The number of row v among the ``count`` natural neighbours so far, and how many these are now."""
     if place[v] < 0:
@@ -176,13 +176,13 @@ def _local(v, place, ring, count):
     return place[v], count
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _from(rows, v, x):
     """Row v less x, in the plane."""
     return rows[v, 0] - x[0], rows[v, 1] - x[1]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _quarter(a, b, p, q):
     """What the edge from a to b gives the cells of both, with the centers p on its left and q on its right.
 
@@ -191,7 +191,7 @@ def _quarter(a, b, p, q):
     return ((b[1] - a[1]) * (q[0] - p[0]) - (b[0] - a[0]) * (q[1] - p[1])) / 4.0
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _cells_in_plane(cells, y, stamp, sizes, scratch):
     """Write what y takes of the cells around, and how that grows as it moves; returns how many cells."""
     count, open_facets = sizes
@@ -237,27 +237,27 @@ def _cells_in_plane(cells, y, stamp, sizes, scratch):
     return number
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _old_center(cells, offsets, t, y):
     """The center of an old triangle, from y."""
     v = cells.simplices[t, 0]
     return (cells.rows[v, 0] - y[0]) + offsets[t, 0], (cells.rows[v, 1] - y[1]) + offsets[t, 1]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _old_center_in_space(cells, offsets, t, y):
     """The center of an old tetrahedron, from y."""
     x = _from_in_space(cells.rows, cells.simplices[t, 0], y)
     return x[0] + offsets[t, 0], x[1] + offsets[t, 1], x[2] + offsets[t, 2]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _from_in_space(rows, v, x):
     """Row v less x, in space."""
     return rows[v, 0] - x[0], rows[v, 1] - x[1], rows[v, 2] - x[2]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _sixth(u, v, p, q):
     """What a triangle with the sides u and v gives the cells of its three corners, signed.
 
@@ -281,7 +281,7 @@ def _sixth(u, v, p, q):
     )
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _outward(simplices, t, k):
     """The facet opposite the k-th vertex, counter-clockwise from outside."""
     if k == 0:
@@ -293,7 +293,7 @@ def _outward(simplices, t, k):
     return simplices[t, 0], simplices[t, 2], simplices[t, 1]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _add_facet(rows, ends, p, q, y, scratch):
     """Add a facet of three sites, ccw from the side of q, to what is taken of their cells."""
     a, b, c = ends
@@ -303,7 +303,7 @@ def _add_facet(rows, ends, p, q, y, scratch):
     scratch.taken[scratch.place[c]] += sizes[2]
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _add_new_facet(rows, ends, first, second, y, scratch):
     """Take off what the new facet of y and two sites gives: of ``first`` it is (y, b, a) from outside."""
     a, b = ends
@@ -317,7 +317,7 @@ def _add_new_facet(rows, ends, first, second, y, scratch):
     _add_growth(scratch.growth[scratch.place[b]], v, p, q, 1.0)
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _add_growth(growth, v, p, q, sign):
     """Add the triangle of p, q and the middle of the new edge to v: its area times its centroid over |v|."""
     m0, m1, m2 = v[0] / 2.0, v[1] / 2.0, v[2] / 2.0
@@ -329,7 +329,7 @@ def _add_growth(growth, v, p, q, sign):
     growth[2] += ratio * (m2 + p[2] + q[2])
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _cells_in_space(cells, y, stamp, sizes, scratch):
     """Write what y takes of the cells around, and how that grows as it moves; returns how many cells."""
     count, open_facets = sizes
@@ -371,7 +371,7 @@ def _cells_in_space(cells, y, stamp, sizes, scratch):
     return number
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _new_centers(cells, y, open_facets, scratch):
     """Write the centers of the new simplices, from y; whether all are reliable."""
     for i in range(open_facets):
@@ -387,7 +387,7 @@ def _new_centers(cells, y, open_facets, scratch):
     return True
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _at_site(cells, t, x):
     """The vertex of simplex t that is x, or -1."""
     for k in range(cells.simplices.shape[1]):
@@ -399,7 +399,7 @@ def _at_site(cells, t, x):
     return -1
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _move_inwards(cells, t, x, part, y):
     """Write the point that is this part of the way from x to the middle of simplex t."""
     corners = cells.simplices.shape[1]
@@ -410,7 +410,7 @@ def _move_inwards(cells, t, x, part, y):
         y[i] = x[i] + part * (middle - x[i])
 
 
-@cached_njit(nogil=True)
+@cached_njit(nogil=True, error_model="numpy")
 def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
     """Write neighbours and weights of points begin .. end-1, in simplices found, one after the other.
 
@@ -420,7 +420,8 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
     simplex.
 
     The weights have to give the point itself as the sum of its neighbours. Where they do not, as rounding has
-    spoilt sizes (cells a billion times as long as wide), the barycentric ones take their place.
+    spoilt sizes (cells a billion times as long as wide), the barycentric ones take their place; they are
+    infinite in a simplex that is so flat that pairs of doubles do not tell.
 
     Returns
     -------
@@ -475,13 +476,13 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
     return end, written
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _write_barycentric(cells, t, x, written, out):
-    """Write the weights of the vertices of simplex t; NaN as derivatives."""
+    """Write the weights of the vertices of simplex t, infinite where pairs leave them open; no derivatives."""
     corners = cells.simplices.shape[1]
     row, weights = cells.simplices[t], out.weights[written : written + corners]
     if not plain_weights(cells.rows, row, x, weights) and not weights_of_pairs(cells.rows, row, x, weights):
-        weights[:] = 1.0 / corners  # the simplex is flat but for 2^-45 of its size
+        weights[:] = np.inf  # the simplex is flat but for 2^-45 of its size
     out.indices[written : written + corners] = row
     for k in range(corners):
         weights[k] = max(weights[k], 0.0)
@@ -489,7 +490,7 @@ def _write_barycentric(cells, t, x, written, out):
             out.slopes[written + k] = np.nan
 
 
-@cached_njit
+@cached_njit(error_model="numpy")
 def _write(cells, x, number, written, scratch, out):
     """Write the weights of one point, whose sum is 1, and the derivatives of these, whose sum is 0.
 
