@@ -27,7 +27,7 @@ from ._numba.unowned import unowned
 from ._results import check_complex, check_range, frozen
 from ._star import Complex, find_beside, side_of_facet
 from ._topology import OUTSIDE
-from .ordering.along_curve import along_curve_in_space
+from .ordering.along_curve import along_curve
 from .predicates import work_array
 
 LEAST_POINTS_PER_THREAD = 4096
@@ -173,19 +173,10 @@ class Locator:
             rows = np.flatnonzero(within.all(axis=1))
             found = out[begin : begin + POINTS_AT_A_TIME]
             with self.lock:
-                self._find(part, rows[_along_curve(part[rows])], found)
+                self._find(part, rows[along_curve(part[rows])], found)
             outside(part, found)
             np.maximum(found, OUTSIDE, out=found)
         return out
-
-    def nearby(self, points: np.ndarray) -> np.ndarray:
-        """The simplex that contains each point, or at which the walk to it left the hull: int32 (k,).
-
-        `OUTSIDE` for points that are not finite, and where no walk finds one that is outside.
-        """
-        return self._found(
-            points, lambda part, found: np.copyto(found, -2 - found, where=found < OUTSIDE), True
-        )
 
     def _admit(self, points: np.ndarray, found: np.ndarray, tol: float) -> None:
         """Put points that are as near as that into the simplices at which the walks to them left the hull."""
@@ -250,12 +241,3 @@ def _in_child() -> None:
 
 if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
     os.register_at_fork(after_in_child=_in_child)
-
-
-def _along_curve(points: np.ndarray) -> np.ndarray:
-    """The rows of points (n, 2) or (n, 3) along a space-filling curve."""
-    if len(points) < 2:
-        return np.arange(len(points))
-    in_space = np.zeros((len(points), 3))
-    in_space[:, : points.shape[1]] = points
-    return along_curve_in_space(in_space, lambda work, n: work(0, n))

@@ -20,6 +20,7 @@ from ..delaunay import Delaunay
 from ..geometry.barycentric import barycentric_weights
 from ..geometry.circumcenters import offsets_of_centers
 from ..geometry.measures import scaled_sites
+from ..ordering.along_curve import along_curve
 from ..predicates import work_array
 from .base import Interpolator
 from .sibson import Scratch, Weights, natural_neighbors
@@ -123,22 +124,20 @@ class NaturalNeighbor(Interpolator):
         points, shape = self._queries(xi)
         columns, d = self._columns(), self.tri.ndim
         out = np.full((len(points), columns.shape[1], d), np.nan)
-        for begin in range(0, len(points), POINTS_AT_A_TIME):
-            part = points[begin : begin + POINTS_AT_A_TIME]
-            counts, indices, _, slopes = self._weights(part, slopes=True)
+        for rows in _parts(points):
+            counts, indices, _, slopes = self._weights(points[rows], slopes=True)
             for k in range(d):
                 values = self._matrix(counts, indices, slopes[:, k]) @ columns
-                out[begin : begin + len(part), :, k] = np.where(counts[:, None] > 0, values, np.nan)
+                out[rows, :, k] = np.where(counts[:, None] > 0, values, np.nan)
         return self._derivatives(out if self._scale is None else out / self._scale, shape)
 
     def _evaluate(self, points: np.ndarray, columns: np.ndarray) -> np.ndarray:
         out = np.empty((len(points), columns.shape[1]))
-        for begin in range(0, len(points), POINTS_AT_A_TIME):
-            part = points[begin : begin + POINTS_AT_A_TIME]
-            counts, indices, weights, _ = self._weights(part, slopes=False)
+        for rows in _parts(points):
+            counts, indices, weights, _ = self._weights(points[rows], slopes=False)
             values = self._matrix(counts, indices, weights) @ columns
             self._fill(values, counts == 0)
-            out[begin : begin + len(part)] = values
+            out[rows] = values
         return out
 
     def _matrix(self, counts: np.ndarray, indices: np.ndarray, data: np.ndarray) -> scipy.sparse.csr_array:
@@ -236,6 +235,17 @@ class NaturalNeighbor(Interpolator):
                 at = -1 - at
                 self._scratch[thread] = _scratch(cells, offsets, len(self.points), 4 * len(scratch.cavity))
             begin = at
+
+
+def _parts(points: np.ndarray) -> list[np.ndarray]:
+    """Rows of points (k, d), some at a time, along a curve; those that are not finite last.
+
+    So the simplices around a point are still in the cache for the next.
+    """
+    finite = np.isfinite(points).all(axis=1)
+    rows = np.flatnonzero(finite)
+    order = np.concatenate([rows[along_curve(points[rows])], np.flatnonzero(~finite)])
+    return [order[begin : begin + POINTS_AT_A_TIME] for begin in range(0, len(order), POINTS_AT_A_TIME)]
 
 
 class _One:

@@ -31,6 +31,8 @@ WELL_SHAPED = 2.0**-16  # as in `dt3d.geometry.barycentric`
 
 WORST_SUM = 1e-10  # of a neighbour's distance: what the weighted sum of neighbours may be off
 
+MOST_STAMPS = 2**30  # of int32, then they begin again; one call takes fewer than 2^20
+
 FULL, FLAT = -1, -2  # no room for a cavity, and a new simplex that is flat
 
 
@@ -429,7 +431,10 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
         The point that has no room for its neighbours, or ``end``, and how many entries were written.
     """
     cells, w = unowned(cells), unowned(scratch.work)
-    written, stamp, d = 0, scratch.stamp[0], points.shape[1]
+    written, d = 0, points.shape[1]
+    if scratch.stamp[0] > MOST_STAMPS:
+        scratch.seen[:] = scratch.stamp[0] = 0
+    stamp = scratch.stamp[0]
     y = cells.rows[q]
     for i in range(begin, end):
         out.counts[i] = 0
@@ -478,7 +483,7 @@ def natural_neighbors(cells, q, points, found, begin, end, scratch, out):
 
 @cached_njit(error_model="numpy")
 def _write_barycentric(cells, t, x, written, out):
-    """Write the weights of the vertices of simplex t, infinite where pairs leave them open; no derivatives."""
+    """Write the weights of the vertices of simplex t, infinite if pairs leave them open; NaN as slopes."""
     corners = cells.simplices.shape[1]
     row, weights = cells.simplices[t], out.weights[written : written + corners]
     if not plain_weights(cells.rows, row, x, weights) and not weights_of_pairs(cells.rows, row, x, weights):

@@ -90,6 +90,21 @@ def along_curve_in_space(
     return order
 
 
+def along_curve(points: np.ndarray) -> np.ndarray:
+    """Return the rows of points, float64 (n, 2) or (n, 3), along the curve: int64 (n,).
+
+    Parameters
+    ----------
+    points : float64 (n, 2) or (n, 3)
+        Finite; equal ones may be among them.
+    """
+    if len(points) < 2:
+        return np.arange(len(points))
+    in_space = np.zeros((len(points), 3))
+    in_space[:, : points.shape[1]] = points
+    return along_curve_in_space(in_space, lambda work, n: work(0, n))
+
+
 def _along_one_curve(
     sites: np.ndarray, in_pieces: Callable[[Callable[[int, int], None], int], None]
 ) -> tuple[np.ndarray, np.ndarray]:
