@@ -51,7 +51,8 @@ def _by_doubles(points, row, base, center):
     half = 0.5 / det
     cx, cy, cz = cx * half, cy * half, cz * half
     center[0], center[1], center[2] = base * x + cx / f, base * y + cy / f, base * z + cz / f
-    return math.hypot(math.hypot(cx, cy), cz) / f
+    square = cx * cx + cy * cy + cz * cz
+    return (math.sqrt(square) if square < 1e300 else math.hypot(math.hypot(cx, cy), cz)) / f
 
 
 @cached_njit
