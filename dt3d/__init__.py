@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ._topology import OUTSIDE
     from .delaunay import Delaunay
     from .subset import Subset
+    from .voronoi import Voronoi
 
 __version__ = "0.1.0"
 
@@ -40,6 +41,7 @@ __all__ = [
     "QuadraticSearchWarning",
     "Statistics",
     "Subset",
+    "Voronoi",
     "__version__",
 ]
 
@@ -50,6 +52,7 @@ _MODULES = {
     "OUTSIDE": "_topology",
     "Delaunay": "delaunay",
     "Subset": "subset",
+    "Voronoi": "voronoi",
     **dict.fromkeys(["InsertionStatistics", "Progress", "Statistics"], "_stats"),
     **dict.fromkeys([name for name in __all__ if name.endswith(("Error", "Warning"))], "_errors"),
 }
