@@ -72,7 +72,8 @@ class Interpolator:
         Parameters
         ----------
         *xi : array_like, real
-            Points of shape (..., d), or d arrays of coordinates that are broadcast against each other.
+            Points of shape (..., d), or d arrays of coordinates that are broadcast against each other. A
+            single point (d,) counts as (1, d), as in SciPy.
 
         Returns
         -------
@@ -99,6 +100,7 @@ class Interpolator:
             xi = xi[0]
         if len(xi) == 1:
             points, shape = check_queries(xi[0], d)
+            shape = shape or (1,)  # as in SciPy
         elif len(xi) == d:
             points, shape = check_queries(np.stack(np.broadcast_arrays(*xi), axis=-1), d)
         else:

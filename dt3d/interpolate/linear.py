@@ -53,7 +53,7 @@ class Linear(Interpolator):
     >>> import numpy as np
     >>> from dt3d.interpolate import Linear
     >>> f = Linear([[0, 0], [1, 0], [0, 1], [1, 1]], [0, 1, 2, 3])
-    >>> f([[0.5, 0.25], [2, 2]]).tolist(), f(0.5, [0.25, 0.5]).tolist(), f.gradient([0.3, 0.2]).tolist()
+    >>> f([[0.5, 0.25], [2, 2]]).tolist(), f(0.5, [0.25, 0.5]).tolist(), f.gradient(0.3, 0.2).tolist()
     ([1.0, nan], [1.0, 1.5], [1.0, 2.0])
     """
 

@@ -190,12 +190,13 @@ def test_shapes_kinds_and_coordinates(kind):
     np.testing.assert_array_equal(f(xi).real, kind(points, values.real)(xi))
     np.testing.assert_array_equal(f(xi), f(xi[..., 0], xi[..., 1]))
     np.testing.assert_array_equal(f(xi), f((xi[..., 0], xi[..., 1])))
-    np.testing.assert_array_equal(f(xi[:, 0, 0], 0.5)[2], f([xi[2, 0, 0], 0.5]))
+    np.testing.assert_array_equal(f(xi[:, 0, 0], 0.5)[2], f([xi[2, 0, 0], 0.5])[0])
     np.testing.assert_array_equal(kind((points[:, 0], points[:, 1]), values)(xi), f(xi))
-    assert f([0.5, 0.5]).shape == (4,)
+    assert f([0.5, 0.5]).shape == (1, 4)  # as in SciPy
+    assert f(0.5, 0.5).shape == (4,)
     assert f(np.empty((0, 2))).shape == (0, 4)
     assert kind(points, np.arange(100))(xi).dtype == np.float64
-    assert kind(points, values > 0)([0.5, 0.5]).shape == (4,)
+    assert kind(points, values > 0)(0.5, 0.5).shape == (4,)
     if kind is not Nearest:
         assert f.gradient(xi).shape == (5, 6, 4, 2)
         np.testing.assert_array_equal(f.gradient(xi).imag, kind(points, values.imag).gradient(xi))
