@@ -30,6 +30,8 @@ BYTES_PER_SITE = 64  # bytes: a site along the curve, and its places there and i
 SITES_PER_REPORT = 100_000  # sites between two reports
 FIRST_SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
+Result = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]  # simplices and neighbors, (m, 4)
+
 
 @dataclass
 class Outcome:
@@ -51,12 +53,15 @@ def triangulate(
     seed: int = 0,
     threads: int | None = None,
     report: Callable[[int, int], None] | None = None,
+    room: Callable[[int], Result] | None = None,
 ) -> Outcome:
     """Triangulate sites, float64 (n, 3), exactly.
 
     ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
     greatest coordinate is about 1. There are at most as many threads as cores, since threads that never wait
     for each other gain nothing from taking turns; with ``threads`` of None also fewer where more do not pay.
+    ``room(m)`` gives the two arrays, int32 (m, 4) in C order, that the result is written into, and may raise
+    where there is none; by default it takes memory of the run.
 
     Raises
     ------
@@ -93,7 +98,7 @@ def triangulate(
     begun = time.perf_counter()
     for worker in team.workers:
         vertices(store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
-    simplices, neighbors = _compact(store, original, threads)
+    simplices, neighbors = _compact(store, original, threads, room)
     seconds["compaction"] = time.perf_counter() - begun
     return Outcome(
         simplices,
@@ -153,8 +158,11 @@ def _first(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
 
 
 def _compact(
-    store: Store, original: npt.NDArray[np.int32], threads: int
-) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    store: Store,
+    original: npt.NDArray[np.int32],
+    threads: int,
+    room: Callable[[int], Result] | None = None,
+) -> Result:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
     require(f"the result of {slots} tetrahedra", 8 * slots)  # their numbers now, and their iterations later
@@ -170,8 +178,11 @@ def _compact(
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
     in_chunks(threads, lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
-    # the spheres have served; the result takes their memory, which is there and no less
-    result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
-    simplices, neighbors = result[0], result[1]
+    if room is not None:
+        simplices, neighbors = room(m)
+    else:
+        # the spheres have served; the result takes their memory, which is there and no less
+        result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
+        simplices, neighbors = result[0], result[1]
     in_chunks(threads, lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
     return simplices, neighbors

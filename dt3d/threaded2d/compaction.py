@@ -5,6 +5,7 @@ Nodes are numbered chunk by chunk; the threads take chunks in turn, as what is l
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
@@ -57,10 +58,17 @@ def _write(nodes, first, step, number, before, site, out):
                 out.thread[s] = -1 - nodes[t, c.CHILD]
 
 
-def compact(nodes: np.ndarray, site: np.ndarray, threads: int = 1) -> Triangles:
+def compact(
+    nodes: np.ndarray,
+    site: np.ndarray,
+    threads: int = 1,
+    room: Callable[[int], tuple[np.ndarray, np.ndarray]] | None = None,
+) -> Triangles:
     """The finite triangles among the nodes that are used, int32 (used, 8).
 
-    ``site`` holds the number of each row of the points, int (n,).
+    ``site`` holds the number of each row of the points, int (n,). ``room(m)`` gives the arrays that triangles
+    and neighbours are written into, int32 (m, 3) in C order, and may raise where there is none; by default
+    they are new.
     """
     used = len(nodes)
     chunks = -(-used >> CHUNK_BITS)
@@ -69,6 +77,7 @@ def compact(nodes: np.ndarray, site: np.ndarray, threads: int = 1) -> Triangles:
     run_short_tasks([partial(_number, nodes, k, threads, number, counts) for k in range(threads)])
     before = np.cumsum(counts, dtype=np.int32) - counts
     m = int(counts.sum())
-    out = Triangles(np.empty((m, 3), np.int32), np.empty((m, 3), np.int32), np.empty(m, np.int16))
+    triangles, neighbors = room(m) if room else (np.empty((m, 3), np.int32), np.empty((m, 3), np.int32))
+    out = Triangles(triangles, neighbors, np.empty(m, np.int16))
     run_short_tasks([partial(_write, nodes, k, threads, number, before, site, out) for k in range(threads)])
     return out

@@ -64,8 +64,14 @@ class Outcome:
     stats: Statistics
 
 
-def triangulate(points: np.ndarray, options: Options) -> Outcome:
+def triangulate(
+    points: np.ndarray,
+    options: Options,
+    room: Callable[[int], tuple[np.ndarray, np.ndarray]] | None = None,
+) -> Outcome:
     """Triangulate points, float64 (n, 2), in the range of the exact predicates.
+
+    ``room(m)`` gives the arrays for triangles and neighbours, see `compaction.compact`.
 
     Raises
     ------
@@ -110,7 +116,7 @@ def triangulate(points: np.ndarray, options: Options) -> Outcome:
         msg = f"method {options.method!r} has inserted {inserted} of {len(order)} sites in the plane"
         raise InternalError(msg)
     used = capacity if capacity is not None else store.used
-    triangles, neighbors, thread = compact(store.nodes[:used], site, busy)
+    triangles, neighbors, thread = compact(store.nodes[:used], site, busy, room)
     inserted_by = np.full(len(points), -1, np.int16)
     inserted_by[site[first]] = 0
     inserted_by[site[order]] = schedule.taker
