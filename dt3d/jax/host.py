@@ -22,7 +22,7 @@ from ..location import Locator
 from .status import Status
 from .whole_arithmetic import in_whole_arithmetic
 
-Triangulated = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+Arrays = tuple[np.ndarray, ...]
 # sites of a set from which all threads on one set after another beat one set per thread, where there are
 # fewer sets than threads
 SITES_WORTH_ALL_THREADS = 20_000
@@ -35,16 +35,22 @@ class _TooMany(Exception):
         self.needed = needed
 
 
+def numbers(array: npt.ArrayLike) -> np.ndarray:
+    """What an argument is: the array itself, or float64 (...) of words, uint32 (..., 2)."""
+    given = np.asarray(array)
+    return given.view(np.float64)[..., 0] if given.dtype == np.uint32 else given
+
+
 @cache
-def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Triangulated]:
+def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Arrays]:
     """The function of points (..., n, d) that triangulates; one object for one pair, as JAX's caches want.
 
     It returns simplices and neighbors, int32 (..., capacity, d + 1), counts and status, int32 (...). With
     ``raises`` a set that has no simplices is a ValueError.
     """
 
-    def triangulate(points: npt.ArrayLike) -> Triangulated:
-        sets = np.asarray(points)
+    def triangulate(points: npt.ArrayLike) -> Arrays:
+        sets = numbers(points)
         *batch, n, d = sets.shape
         sets = sets.reshape(-1, n, d)
         simplices, neighbors = (np.empty((len(sets), capacity, d + 1), np.int32) for _ in range(2))
@@ -65,15 +71,15 @@ def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Trian
 
 def locate(
     points: npt.ArrayLike, simplices: npt.ArrayLike, neighbors: npt.ArrayLike, xi: npt.ArrayLike
-) -> np.ndarray:
-    """The simplex that contains each point, exactly: int32 (..., q), -1 where there is none.
+) -> Arrays:
+    """The simplex that contains each point, exactly: one array, int32 (..., q), -1 where there is none.
 
     Arrays are points (..., n, d), simplices and neighbors (..., capacity, d + 1), and xi (..., q, d). A
     leading dimension is 1 where the array is the same for all.
     """
     announce_compilation()
-    given = [np.asarray(a) for a in (points, simplices, neighbors)]
-    queries = np.asarray(xi)
+    given = [numbers(a) for a in (points, simplices, neighbors)]
+    queries = numbers(xi)
     own = np.broadcast_shapes(*(a.shape[:-2] for a in given))
     batch = np.broadcast_shapes(own, queries.shape[:-2])
     queries = np.broadcast_to(queries, batch + queries.shape[-2:])
@@ -89,7 +95,7 @@ def locate(
         out[asking] = _located(sites, cells, across, queries[asking])
 
     in_whole_arithmetic(lambda: _for_each(len(sets), queries.shape[-2] < SITES_WORTH_ALL_THREADS, one))
-    return out
+    return (out,)
 
 
 def _located(sites: np.ndarray, cells: np.ndarray, across: np.ndarray, queries: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ import jax
 import jax.numpy as jnp
 from jax.typing import ArrayLike
 
+from .callback import call_host
 from .geometry import check_leading, checked, for_each_set
 from .host import locate
 from .mesh import Mesh
@@ -67,8 +68,6 @@ def find_simplex(points: ArrayLike, mesh: Mesh, xi: ArrayLike, method: Method = 
     if method == "walk":
         found = for_each_set(walk, sets)(sites, simplices, neighbors, flat)
     else:
-        result = jax.ShapeDtypeStruct(flat.shape[:-1], jnp.int32)
-        found = jax.pure_callback(
-            locate, result, sites, simplices, neighbors, flat, vmap_method="expand_dims"
-        )
+        numbers = jax.ShapeDtypeStruct(flat.shape[:-1], jnp.int32)
+        (found,) = call_host(locate, [numbers], sites, simplices, neighbors, flat)
     return found.reshape(queries.shape[:-1])

@@ -10,6 +10,7 @@ import numpy as np
 from jax.typing import ArrayLike
 
 from .._input import MOST_SITES
+from .callback import call_host
 from .host import triangulator
 from .mesh import Mesh
 
@@ -45,9 +46,9 @@ def delaunay(
         have 6.8 n, surfaces and grids less, and only sets made for it, on two skew lines or a moment
         curve, up to n^2 / 2. In the plane 2 n, which is enough for all.
     on_error : "raise" or "status"
-        Whether sets that overflow, are not finite or degenerate raise, as a `jax.errors.JaxRuntimeError` that
-        ends with the reason; or leave a bit in `Mesh.status` and rows of -1. JAX does not say what a program
-        does in which a callback raises, so one that trains asks for the status.
+        Whether sets that overflow, are not finite or degenerate end the program with an error of JAX's, whose
+        last line is the reason; or leave a bit in `Mesh.status` and rows of -1. JAX does not say what else a
+        program does in which a callback raises, so one that trains asks for the status.
 
     Returns
     -------
@@ -83,13 +84,8 @@ def delaunay(
         raise ValueError(msg)
     simplices = jax.ShapeDtypeStruct((*batch, rows, d + 1), jnp.int32)
     number = jax.ShapeDtypeStruct(tuple(batch), jnp.int32)
-    results = jax.pure_callback(
-        triangulator(rows, on_error == "raise"),
-        (simplices, simplices, number, number),
-        jax.lax.stop_gradient(sites),
-        vmap_method="expand_dims",
-    )
-    return Mesh(*results)
+    shapes = [simplices, simplices, number, number]
+    return Mesh(*call_host(triangulator(rows, on_error == "raise"), shapes, sites))
 
 
 def _check_points(points: jax.Array) -> None:

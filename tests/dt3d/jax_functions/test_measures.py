@@ -1,0 +1,147 @@
+"""Volumes, circumcentres and circumradii, and their derivatives."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jax.test_util import check_grads
+
+import dt3d
+from dt3d.jax import circumcenters, circumradii, delaunay, volumes
+
+from .sets import families, grid, uniform
+
+MEASURES = [volumes, circumcenters, circumradii]
+
+
+@pytest.fixture
+def x64():
+    with jax.enable_x64(True):
+        yield
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("measure", MEASURES)
+def test_derivatives(x64, d, measure):
+    points = jnp.asarray(uniform(12, d, seed=3))
+    mesh = delaunay(points, capacity=60)
+    check_grads(lambda points: measure(points, mesh), (points,), order=2, atol=1e-3, rtol=1e-3)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("name", ["uniform", "grid", "offset", "duplicates", "tiny"])
+def test_values(x64, d, name):
+    points = families(d)[name]
+    mesh = delaunay(points)
+    tri = dt3d.Delaunay(points)
+    m = len(tri.simplices)
+    corners = points[tri.simplices]
+    edges = corners[:, 1:] - corners[:, :1]
+    expected = np.linalg.det(edges / np.abs(edges).max()) * np.abs(edges).max() ** d / (6 if d == 3 else 2)
+    found = volumes(points, mesh)
+    np.testing.assert_allclose(found[:m], expected, rtol=1e-9, atol=1e-12 * np.abs(expected).max())
+    assert (found[m:] == 0).all()
+    # the centre is as far from each corner as the radius says
+    centers, radii = circumcenters(points, mesh), circumradii(points, mesh)
+    scale = np.abs(points).max()
+    distances = scale * np.linalg.norm((corners - centers[:m, None]) / scale, axis=2)
+    extent = np.ptp(points, axis=0).max()
+    round_ones = np.asarray(radii[:m]) < 100 * extent
+    np.testing.assert_allclose(
+        distances[round_ones],
+        np.broadcast_to(radii[:m, None], distances.shape)[round_ones],
+        rtol=1e-6,
+        atol=1e-9 * scale,
+    )
+    assert round_ones.sum() > m // 2
+    assert (centers[m:] == 0).all()
+    assert (radii[m:] == 0).all()
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("scale", [1e-30, 1e30])
+def test_float32_does_not_overflow(d, scale):
+    points = jnp.asarray(grid(3, d) * scale, jnp.float32)
+    mesh = delaunay(points)
+    radii = circumradii(points, mesh)
+    assert radii.dtype == jnp.float32
+    np.testing.assert_allclose(radii[mesh.valid], scale * np.sqrt(d) / 2, rtol=1e-5)
+    gradient = jax.grad(lambda points: circumradii(points, mesh).sum() / scale)(points)
+    assert np.isfinite(gradient).all()
+    assert np.abs(gradient).max() * scale < 10
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("measure", MEASURES)
+def test_the_padding_has_no_part_in_derivatives(d, measure):
+    points = jnp.asarray(uniform(20, d), jnp.float32)
+    few, many = (delaunay(points, capacity=capacity) for capacity in (delaunay(points).count.item(), 500))
+
+    def both(mesh):
+        return jax.value_and_grad(lambda points: (measure(points, mesh) ** 2).sum())(points)
+
+    for one, other in zip(both(few), both(many), strict=True):
+        assert np.isfinite(other).all()
+        np.testing.assert_allclose(one, other, rtol=1e-4)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_simplices_that_have_become_flat_are_finite(d):
+    points = jnp.asarray(uniform(10, d), jnp.float32)
+    mesh = delaunay(points)
+    for moved in (points.at[:, 0].set(0.5), points.at[:, 1].set(points[:, 0]), jnp.zeros_like(points)):
+        for measure in MEASURES:
+            values = measure(moved, mesh)
+            assert np.isfinite(values).all()
+            assert np.isfinite(jax.grad(lambda p, f=measure: f(p, mesh).sum())(moved)).all()
+        assert np.abs(circumcenters(moved, mesh)).max() < 1e7
+        assert (jnp.abs(volumes(moved, mesh)) < 1e-7).all()
+
+
+def test_the_clamp_of_a_sliver():
+    # the square of a grid, one corner lifted by less than its rounding error in float32
+    points = jnp.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1e-9], [0.5, 0.5, -1]], jnp.float32)
+    mesh = delaunay(points)
+    square = jnp.array([[0, 1, 2, 3]], jnp.int32)
+    sliver = type(mesh)(square, -jnp.ones_like(square), jnp.array(1), jnp.array(0))
+    (center,) = circumcenters(points, sliver)
+    (radius,) = circumradii(points, sliver)
+    assert np.isfinite(center).all()
+    assert np.isfinite(radius)
+    assert radius < 1e7
+
+
+def test_a_simplex_that_has_turned_over_is_negative():
+    points = jnp.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    mesh = delaunay(points)
+    assert volumes(points, mesh)[0] == 0.5
+    assert volumes(points * jnp.array([-1.0, 1.0]), mesh)[0] == -0.5
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+def test_leading_dimensions(measure):
+    sets = jnp.stack([uniform(15, 2, seed) for seed in range(6)]).reshape(2, 3, 15, 2)
+    mesh = delaunay(sets)
+    together = measure(sets, mesh)
+    each = jax.vmap(jax.vmap(measure))(sets, mesh)
+    np.testing.assert_array_equal(together, each)
+    one = jax.tree.map(lambda a: a[1, 2], mesh)
+    np.testing.assert_allclose(together[1, 2], measure(sets[1, 2], one), rtol=1e-6)
+
+
+def test_errors_when_traced():
+    points = jnp.asarray(uniform(15, 2))
+    mesh = delaunay(points)
+    for wrong in (points[:, :1], points[None], jnp.zeros((15, 3)), jnp.zeros((15, 2), int), 1.0):
+        with pytest.raises(
+            ValueError, match=r"points must be those of the mesh, floats of shape \(n, 2\), got"
+        ):
+            volumes(wrong, mesh)
+    with pytest.raises(ValueError, match=r"floats of shape \(3, n, 2\), got float32 of shape \(15, 2\)"):
+        volumes(points, delaunay(jnp.stack([points] * 3)))
+
+
+def test_the_volumes_fill_the_hull(x64):
+    points = uniform(300, 3)
+    points[:8] = grid(2, 3)
+    np.testing.assert_allclose(volumes(points, delaunay(points)).sum(), 1, rtol=1e-12)

@@ -1,0 +1,214 @@
+"""`dt3d.jax.delaunay` finds what `dt3d.Delaunay` does, in every kind of program."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jax.errors import JaxRuntimeError
+
+import dt3d
+import dt3d.jax
+from dt3d.jax import Status, delaunay
+
+from .sets import assert_same, families, uniform
+
+FAMILIES = [(d, name) for d in (2, 3) for name in families(d)]
+
+
+@pytest.fixture
+def x64():
+    with jax.enable_x64(True):
+        yield
+
+
+@pytest.mark.parametrize(("d", "name"), FAMILIES)
+def test_the_same_as_the_class(x64, d, name):
+    points = families(d)[name]
+    assert_same(jax.jit(delaunay)(points), points)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_float32_gives_what_its_widening_gives(d):
+    points = uniform(200, d).astype(np.float32)
+    mesh = delaunay(jnp.asarray(points))
+    assert not jax.config.jax_enable_x64
+    assert_same(mesh, points.astype(np.float64))
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_subnormal_float32(d):
+    points = (np.round(uniform(30, d) * 1000) * 1.5e-45).astype(np.float32)
+    assert (points < 1e-38).all()
+    assert_same(jax.jit(delaunay)(points), points.astype(np.float64))
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_batches(x64, d):
+    sets = np.stack([uniform(40, d, seed) for seed in range(6)]).reshape(2, 3, 40, d)
+    leading = jax.jit(delaunay)(sets)
+    nested = jax.jit(jax.vmap(jax.vmap(delaunay)))(sets)
+    last = jax.vmap(delaunay, in_axes=2)(jnp.moveaxis(sets[0], 0, 2))
+    for i in range(2):
+        for j in range(3):
+            for mesh in (leading, nested):
+                assert_same(jax.tree.map(lambda a, i=i, j=j: a[i, j], mesh), sets[i, j])
+    for j in range(3):
+        assert_same(jax.tree.map(lambda a, j=j: a[j], last), sets[0, j])
+
+
+def test_one_call_of_the_host_for_a_batch(monkeypatch):
+    calls = []
+    triangulate = dt3d.jax.triangulation.triangulator
+
+    def counted(*options):
+        def run(points):
+            calls.append(np.shape(points))
+            return triangulate(*options)(points)
+
+        return run
+
+    monkeypatch.setattr(dt3d.jax.triangulation, "triangulator", counted)
+    sets = jnp.asarray(uniform(8 * 10, 3).reshape(2, 4, 10, 3))
+    jax.block_until_ready(jax.jit(jax.vmap(jax.vmap(delaunay)))(sets))
+    assert calls == [(2, 4, 10, 3)]
+
+
+def test_large_sets_get_all_threads_one_after_another():
+    sets = uniform(21_000, 2).astype(np.float32)[None]
+    mesh = delaunay(sets)
+    expected = dt3d.Delaunay(sets[0])
+    assert mesh.count.tolist() == [len(expected.simplices)]
+
+
+def test_an_empty_batch():
+    mesh = jax.jit(delaunay)(jnp.zeros((0, 5, 3)))
+    assert mesh.simplices.shape == (0, 104, 4)
+    assert mesh.count.shape == (0,)
+
+
+def total(points):
+    mesh = delaunay(points)
+    return (dt3d.jax.volumes(points, mesh) ** 2).sum()
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_gradients_are_those_of_a_fixed_mesh(x64, d):
+    points = jnp.asarray(uniform(30, d))
+    mesh = delaunay(points)
+    fixed = jax.grad(lambda points: (dt3d.jax.volumes(points, mesh) ** 2).sum())(points)
+    for program in (
+        jax.grad(total),
+        jax.jit(jax.grad(total)),
+        jax.jacfwd(total),
+        jax.grad(jax.checkpoint(total)),
+        jax.jit(jax.grad(jax.checkpoint(total))),
+    ):
+        np.testing.assert_allclose(program(points), fixed, rtol=1e-12)
+
+
+def test_gradients_of_a_batch(x64):
+    sets = jnp.stack([uniform(20, 3, seed) for seed in range(3)])
+    together = jax.vmap(jax.grad(total))(sets)
+    for points, gradient in zip(sets, together, strict=True):
+        np.testing.assert_allclose(gradient, jax.grad(total)(points), rtol=1e-12)
+
+
+def test_steps_of_a_scan(x64):
+    start = jnp.asarray(uniform(40, 3))
+
+    def step(points, _):
+        moved = points - 0.1 * jax.grad(total)(points)
+        return moved, delaunay(moved).count
+
+    last, counts = jax.jit(lambda points: jax.lax.scan(step, points, length=5))(start)
+    points = start
+    for count in counts.tolist():
+        points = points - 0.1 * jax.grad(total)(points)
+        assert count == len(dt3d.Delaunay(points).simplices)
+    np.testing.assert_allclose(last, points, rtol=1e-12)
+    through = jax.grad(lambda points: jax.lax.scan(step, points, length=2)[0].sum())(start)
+    assert np.isfinite(through).all()
+
+
+def test_capacity():
+    points = uniform(50, 3).astype(np.float32)
+    m = len(dt3d.Delaunay(points).simplices)
+    just = delaunay(points, capacity=m)
+    assert just.valid.all()
+    assert just.count == m
+    short = delaunay(points, capacity=m - 1, on_error="status")
+    assert (short.count, short.status) == (m, Status.OVERFLOW)
+    assert (short.simplices == -1).all()
+    assert (short.neighbors == -1).all()
+    with pytest.raises(
+        JaxRuntimeError, match=f"50 sites have {m} tetrahedra, more than capacity={m - 1}; pass"
+    ):
+        jax.block_until_ready(delaunay(points, capacity=m - 1))
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_what_is_wrong_with_a_set_of_a_batch(d):
+    good = uniform(20, d).astype(np.float32)
+    not_finite, infinite, flat = good.copy(), good.copy(), good.copy()
+    not_finite[3, 1] = np.nan
+    infinite[4, 0] = -np.inf
+    flat[:, 0] = 1
+    sets = jnp.stack([good, not_finite, infinite, flat, np.ones_like(good)])
+    mesh = jax.jit(jax.vmap(lambda points: delaunay(points, on_error="status")))(sets)
+    assert mesh.status.tolist() == [0, 2, 2, 4, 4]
+    assert mesh.count[1:].tolist() == [0] * 4
+    assert (mesh.simplices[1:] == -1).all()
+    assert_same(jax.tree.map(lambda a: a[0], mesh), good.astype(np.float64))
+    gradient = jax.grad(lambda sets: dt3d.jax.volumes(sets, mesh).sum())(sets)
+    assert (gradient[1:] == 0).all()
+    for points, message in (
+        (not_finite, "points must be finite: 1 rows have NaN or infinity, the first is 3; on_error="),
+        (flat, f"a triangulation needs {'three' if d == 2 else 'four'} sites that do not lie on a"),
+    ):
+        with pytest.raises(JaxRuntimeError, match=message):
+            jax.block_until_ready(delaunay(points))
+    with pytest.raises(JaxRuntimeError, match="set 1 of 2: points must be finite"):
+        jax.block_until_ready(delaunay(jnp.stack([good, infinite])))
+
+
+@pytest.mark.parametrize(
+    ("points", "options", "message"),
+    [
+        (
+            np.zeros((3, 9)),
+            {},
+            r"points must have shape \(..., n, 2\) or \(..., n, 3\), got \(3, 9\); it looks",
+        ),
+        (np.zeros(3), {}, r"got \(3,\)$"),
+        (np.zeros((9, 4)), {}, r"got \(9, 4\)$"),
+        (np.zeros((9, 3), int), {}, r"must be float32 or float64, got int32; pass points.astype"),
+        (np.zeros((3, 3)), {}, r"needs n >= 4, got shape \(3, 3\)"),
+        (np.zeros((7, 2, 2)), {}, r"needs n >= 3, got shape \(7, 2, 2\)"),
+        (np.zeros((9, 3)), {"capacity": 0}, "capacity must be a positive integer that is known when"),
+        (np.zeros((9, 3)), {"capacity": True}, "got True"),
+        (np.zeros((9, 3)), {"capacity": 2**29}, "536870912 rows of 4 are too many"),
+        (np.zeros((9, 3)), {"on_error": "ignore"}, 'on_error must be "raise" or "status", got \'ignore\''),
+    ],
+)
+def test_errors_when_traced(points, options, message):
+    with pytest.raises(ValueError, match=message):
+        jax.eval_shape(lambda points: delaunay(points, **options), points)
+
+
+def test_a_traced_capacity():
+    with pytest.raises(ValueError, match="known when the program is traced, got a traced value"):
+        jax.jit(delaunay)(jnp.zeros((9, 3)), 7)
+
+
+def test_too_many_sites():
+    with pytest.raises(ValueError, match="at most 2\\^25 = 33554432 sites can be numbered"):
+        jax.eval_shape(delaunay, jax.ShapeDtypeStruct((2**25 + 1, 2), jnp.float32))
+
+
+def test_calls_outside_jit_compile_once():
+    points = jnp.asarray(uniform(10, 3))
+    delaunay(points)
+    before = dt3d.jax.triangulation.triangulator.cache_info()
+    delaunay(points + 1)
+    after = dt3d.jax.triangulation.triangulator.cache_info()
+    assert (after.misses, after.hits) == (before.misses, before.hits + 1)
