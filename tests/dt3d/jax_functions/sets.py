@@ -1,12 +1,22 @@
-"""Point sets for programs of JAX, by name, and programs that are compared with `dt3d.Delaunay`."""
+"""Point sets for programs of JAX, by name, and the functions as programs: op by op JAX compiles each op."""
 
 from __future__ import annotations
 
 import itertools
 
+import jax
 import numpy as np
 
 import dt3d
+import dt3d.jax
+
+delaunay = jax.jit(dt3d.jax.delaunay, static_argnames=("capacity", "on_error"))
+volumes = jax.jit(dt3d.jax.volumes)
+circumcenters = jax.jit(dt3d.jax.circumcenters)
+circumradii = jax.jit(dt3d.jax.circumradii)
+find_simplex = jax.jit(dt3d.jax.find_simplex, static_argnames="method")
+barycentric = jax.jit(dt3d.jax.barycentric)
+interpolate = jax.jit(dt3d.jax.interpolate, static_argnames="method")
 
 
 def uniform(n: int, d: int, seed: int = 0) -> np.ndarray:

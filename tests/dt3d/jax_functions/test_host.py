@@ -16,6 +16,8 @@ from dt3d.jax.whole_arithmetic import in_whole_arithmetic
 
 from .sets import assert_same, uniform
 
+REASON = "reason"
+
 # The package is stood in for, as its own __init__ imports JAX; what imports JAX then fails.
 WITHOUT_JAX = """
 import importlib.util, sys, types
@@ -38,7 +40,7 @@ for d in (2, 3):
     sets[2] = 1
     simplices, neighbors, count, status = host.triangulator(400, False)(sets)
     assert count[0] == len(dt3d.Delaunay(sets[0]).simplices) and status.tolist() == [0, 0, 4]
-    found = host.locate(sets, simplices, neighbors, sets[:, :7] * 0.5 + 0.25)
+    (found,) = host.locate(sets, simplices, neighbors, sets[:, :7] * 0.5 + 0.25)
     assert found.shape == (3, 7) and (found[:2] >= 0).any() and (found[2] == -1).all()
 try:
     host.triangulator(4, True)(sets)
@@ -118,7 +120,7 @@ def test_threads_are_of_whole_arithmetic_where_xla_is_not():
 
 def test_what_is_raised_comes_to_the_caller():
     def fail():
-        raise KeyError("reason")
+        raise KeyError(REASON)
 
     with pytest.raises(KeyError, match="reason"):
         in_whole_arithmetic(fail)
@@ -147,7 +149,7 @@ def test_a_failure_stops_the_other_threads(monkeypatch):
     def work(k, threads):
         seen.append(k)
         if k == 1:
-            raise ValueError("reason")
+            raise ValueError(REASON)
 
     with pytest.raises(ValueError, match="reason"):
         host._for_each(10**6, True, work)

@@ -7,9 +7,7 @@ import pytest
 from jax.test_util import check_grads
 from scipy.interpolate import LinearNDInterpolator
 
-from dt3d.jax import barycentric, delaunay, find_simplex, interpolate
-
-from .sets import grid, uniform
+from .sets import barycentric, delaunay, find_simplex, grid, interpolate, uniform
 
 
 @pytest.fixture
@@ -31,18 +29,16 @@ def test_the_same_as_scipy(x64, d, method):
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_derivatives(x64, d):
-    points = jnp.asarray(uniform(15, d))
+    points = jnp.asarray(grid(2, d) + 0.2 * uniform(2**d, d, seed=3))
     mesh = delaunay(points)
-    values = jnp.asarray(uniform(15, 2, seed=1))
+    values = jnp.asarray(uniform(2**d, 2, seed=1))
     xi = jnp.asarray(0.3 + 0.4 * uniform(6, d, seed=2))
     assert (find_simplex(points, mesh, xi) >= 0).all()
     check_grads(
         lambda points, values, xi: interpolate(points, mesh, values, xi),
         (points, values, xi),
-        order=2,
+        order=1,
         eps=1e-6,
-        atol=1e-3,
-        rtol=1e-3,
     )
 
 
@@ -62,7 +58,7 @@ def test_outside_there_is_the_fill_value_and_no_derivative(d):
     def inside(*arrays):
         return jnp.nansum(at(*arrays, jnp.nan))
 
-    gradients = jax.grad(inside, argnums=(0, 1, 2))(points, values, xi)
+    gradients = jax.jit(jax.grad(inside, argnums=(0, 1, 2)))(points, values, xi)
     assert all(np.isfinite(gradient).all() for gradient in gradients)
     assert (gradients[2][1:] == 0).all()
     np.testing.assert_allclose(gradients[1].sum(), 1, rtol=1e-5)
@@ -118,10 +114,9 @@ def test_weights_in_a_flat_simplex_are_finite():
     flat = points.at[:, 2].set(0.5)
     found = jnp.zeros(3, jnp.int32)
     xi = jnp.asarray(uniform(3, 3, seed=1), jnp.float32)
-    for argument in range(2):
-        f = [lambda p: barycentric(p, mesh, found, xi), lambda x: barycentric(flat, mesh, found, x)][argument]
-        assert np.isfinite(f([flat, xi][argument])).all()
-        assert np.isfinite(jax.jacrev(f)([flat, xi][argument])).all()
+    assert np.isfinite(barycentric(flat, mesh, found, xi)).all()
+    slopes = jax.jit(jax.jacrev(lambda points, xi: barycentric(points, mesh, found, xi), argnums=(0, 1)))
+    assert all(np.isfinite(slope).all() for slope in slopes(flat, xi))
 
 
 def test_errors_when_traced():

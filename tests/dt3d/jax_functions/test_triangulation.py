@@ -8,10 +8,12 @@ from jax.errors import JaxRuntimeError
 
 import dt3d
 import dt3d.jax
-from dt3d.jax import Status, delaunay
+from dt3d.jax import Status
 
-from .sets import assert_same, families, uniform
+from .sets import assert_same, delaunay, families, uniform, volumes
 
+# JAX makes a ValueError of some errors of callbacks
+FAILED = (JaxRuntimeError, ValueError)
 FAMILIES = [(d, name) for d in (2, 3) for name in families(d)]
 
 
@@ -24,7 +26,7 @@ def x64():
 @pytest.mark.parametrize(("d", "name"), FAMILIES)
 def test_the_same_as_the_class(x64, d, name):
     points = families(d)[name]
-    assert_same(jax.jit(delaunay)(points), points)
+    assert_same(delaunay(points), points)
 
 
 @pytest.mark.parametrize("d", [2, 3])
@@ -39,13 +41,13 @@ def test_float32_gives_what_its_widening_gives(d):
 def test_subnormal_float32(d):
     points = (np.round(uniform(30, d) * 1000) * 1.5e-45).astype(np.float32)
     assert (points < 1e-38).all()
-    assert_same(jax.jit(delaunay)(points), points.astype(np.float64))
+    assert_same(delaunay(points), points.astype(np.float64))
 
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_batches(x64, d):
     sets = np.stack([uniform(40, d, seed) for seed in range(6)]).reshape(2, 3, 40, d)
-    leading = jax.jit(delaunay)(sets)
+    leading = delaunay(sets)
     nested = jax.jit(jax.vmap(jax.vmap(delaunay)))(sets)
     last = jax.vmap(delaunay, in_axes=2)(jnp.moveaxis(sets[0], 0, 2))
     for i in range(2):
@@ -69,7 +71,7 @@ def test_one_call_of_the_host_for_a_batch(monkeypatch):
 
     monkeypatch.setattr(dt3d.jax.triangulation, "triangulator", counted)
     sets = jnp.asarray(uniform(8 * 10, 3).reshape(2, 4, 10, 3))
-    jax.block_until_ready(jax.jit(jax.vmap(jax.vmap(delaunay)))(sets))
+    jax.block_until_ready(jax.jit(jax.vmap(jax.vmap(dt3d.jax.delaunay)))(sets))
     assert calls == [(2, 4, 10, 3)]
 
 
@@ -81,36 +83,39 @@ def test_large_sets_get_all_threads_one_after_another():
 
 
 def test_an_empty_batch():
-    mesh = jax.jit(delaunay)(jnp.zeros((0, 5, 3)))
+    mesh = delaunay(jnp.zeros((0, 5, 3)))
     assert mesh.simplices.shape == (0, 104, 4)
     assert mesh.count.shape == (0,)
 
 
 def total(points):
     mesh = delaunay(points)
-    return (dt3d.jax.volumes(points, mesh) ** 2).sum()
+    return (volumes(points, mesh) ** 2).sum()
+
+
+gradient = jax.jit(jax.grad(total))
 
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_gradients_are_those_of_a_fixed_mesh(x64, d):
     points = jnp.asarray(uniform(30, d))
     mesh = delaunay(points)
-    fixed = jax.grad(lambda points: (dt3d.jax.volumes(points, mesh) ** 2).sum())(points)
-    for program in (
-        jax.grad(total),
-        jax.jit(jax.grad(total)),
-        jax.jacfwd(total),
-        jax.grad(jax.checkpoint(total)),
-        jax.jit(jax.grad(jax.checkpoint(total))),
-    ):
-        np.testing.assert_allclose(program(points), fixed, rtol=1e-12)
+    fixed = jax.jit(jax.grad(lambda points: (volumes(points, mesh) ** 2).sum()))(points)
+    np.testing.assert_allclose(gradient(points), fixed, rtol=1e-12)
+    for other in (jax.jacfwd(total), jax.grad(jax.checkpoint(total))):
+        np.testing.assert_allclose(jax.jit(other)(points), fixed, rtol=1e-12)
+
+
+def test_derivatives_outside_jit(x64):
+    points = jnp.asarray(uniform(30, 2))
+    np.testing.assert_allclose(jax.grad(total)(points), gradient(points), rtol=1e-12)
 
 
 def test_gradients_of_a_batch(x64):
     sets = jnp.stack([uniform(20, 3, seed) for seed in range(3)])
-    together = jax.vmap(jax.grad(total))(sets)
-    for points, gradient in zip(sets, together, strict=True):
-        np.testing.assert_allclose(gradient, jax.grad(total)(points), rtol=1e-12)
+    together = jax.jit(jax.vmap(jax.grad(total)))(sets)
+    for points, one in zip(sets, together, strict=True):
+        np.testing.assert_allclose(one, gradient(points), rtol=1e-12)
 
 
 def test_steps_of_a_scan(x64):
@@ -123,10 +128,10 @@ def test_steps_of_a_scan(x64):
     last, counts = jax.jit(lambda points: jax.lax.scan(step, points, length=5))(start)
     points = start
     for count in counts.tolist():
-        points = points - 0.1 * jax.grad(total)(points)
+        points = points - 0.1 * gradient(points)
         assert count == len(dt3d.Delaunay(points).simplices)
     np.testing.assert_allclose(last, points, rtol=1e-12)
-    through = jax.grad(lambda points: jax.lax.scan(step, points, length=2)[0].sum())(start)
+    through = jax.jit(jax.grad(lambda points: jax.lax.scan(step, points, length=2)[0].sum()))(start)
     assert np.isfinite(through).all()
 
 
@@ -159,15 +164,15 @@ def test_what_is_wrong_with_a_set_of_a_batch(d):
     assert mesh.count[1:].tolist() == [0] * 4
     assert (mesh.simplices[1:] == -1).all()
     assert_same(jax.tree.map(lambda a: a[0], mesh), good.astype(np.float64))
-    gradient = jax.grad(lambda sets: dt3d.jax.volumes(sets, mesh).sum())(sets)
-    assert (gradient[1:] == 0).all()
+    slopes = jax.jit(jax.grad(lambda sets: volumes(sets, mesh).sum()))(sets)
+    assert (slopes[1:] == 0).all()
     for points, message in (
         (not_finite, "points must be finite: 1 rows have NaN or infinity, the first is 3; on_error="),
         (flat, f"a triangulation needs {'three' if d == 2 else 'four'} sites that do not lie on a"),
     ):
-        with pytest.raises(JaxRuntimeError, match=message):
+        with pytest.raises(FAILED, match=message):
             jax.block_until_ready(delaunay(points))
-    with pytest.raises(JaxRuntimeError, match="set 1 of 2: points must be finite"):
+    with pytest.raises(FAILED, match="set 1 of 2: points must be finite"):
         jax.block_until_ready(delaunay(jnp.stack([good, infinite])))
 
 
@@ -179,8 +184,8 @@ def test_what_is_wrong_with_a_set_of_a_batch(d):
             {},
             r"points must have shape \(..., n, 2\) or \(..., n, 3\), got \(3, 9\); it looks",
         ),
-        (np.zeros(3), {}, r"got \(3,\)$"),
-        (np.zeros((9, 4)), {}, r"got \(9, 4\)$"),
+        (np.zeros(3), {}, r"got \(3,\)"),
+        (np.zeros((9, 4)), {}, r"got \(9, 4\)"),
         (np.zeros((9, 3), int), {}, r"must be float32 or float64, got int32; pass points.astype"),
         (np.zeros((3, 3)), {}, r"needs n >= 4, got shape \(3, 3\)"),
         (np.zeros((7, 2, 2)), {}, r"needs n >= 3, got shape \(7, 2, 2\)"),
@@ -192,12 +197,12 @@ def test_what_is_wrong_with_a_set_of_a_batch(d):
 )
 def test_errors_when_traced(points, options, message):
     with pytest.raises(ValueError, match=message):
-        jax.eval_shape(lambda points: delaunay(points, **options), points)
+        jax.eval_shape(lambda points: dt3d.jax.delaunay(points, **options), points)
 
 
 def test_a_traced_capacity():
     with pytest.raises(ValueError, match="known when the program is traced, got a traced value"):
-        jax.jit(delaunay)(jnp.zeros((9, 3)), 7)
+        jax.jit(dt3d.jax.delaunay)(jnp.zeros((9, 3)), 7)
 
 
 def test_too_many_sites():
@@ -207,8 +212,8 @@ def test_too_many_sites():
 
 def test_calls_outside_jit_compile_once():
     points = jnp.asarray(uniform(10, 3))
-    delaunay(points)
+    dt3d.jax.delaunay(points)
     before = dt3d.jax.triangulation.triangulator.cache_info()
-    delaunay(points + 1)
+    dt3d.jax.delaunay(points + 1)
     after = dt3d.jax.triangulation.triangulator.cache_info()
     assert (after.misses, after.hits) == (before.misses, before.hits + 1)
