@@ -31,6 +31,7 @@ SITES_PER_REPORT = 100_000  # sites between two reports
 FIRST_SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
 Result = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]  # simplices and neighbors, (m, 4)
+Room = Callable[[int, npt.NDArray[np.int32]], Result]
 
 
 @dataclass
@@ -53,15 +54,16 @@ def triangulate(
     seed: int = 0,
     threads: int | None = None,
     report: Callable[[int, int], None] | None = None,
-    room: Callable[[int], Result] | None = None,
+    room: Room | None = None,
 ) -> Outcome:
     """Triangulate sites, float64 (n, 3), exactly.
 
     ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
     greatest coordinate is about 1. There are at most as many threads as cores, since threads that never wait
     for each other gain nothing from taking turns; with ``threads`` of None also fewer where more do not pay.
-    ``room(m)`` gives the two arrays, int32 (m, 4) in C order, that the result is written into, and may raise
-    where there is none; by default it takes memory of the run.
+    ``room(m, spare)`` gives the two arrays, int32 (m, 4) in C order, that the result is written into, and may
+    raise where there is none. It can take them from ``spare``, memory of the run of one dimension that has
+    served, as is done by default.
 
     Raises
     ------
@@ -161,7 +163,7 @@ def _compact(
     store: Store,
     original: npt.NDArray[np.int32],
     threads: int,
-    room: Callable[[int], Result] | None = None,
+    room: Room | None = None,
 ) -> Result:
     """Finite tetrahedra without gaps: simplices and neighbors, int32 (m, 4)."""
     mesh, slots = store.mesh, store.used
@@ -178,11 +180,12 @@ def _compact(
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
     in_chunks(threads, lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
-    if room is not None:
-        simplices, neighbors = room(m)
-    else:
-        # the spheres have served; the result takes their memory, which is there and no less
-        result = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
-        simplices, neighbors = result[0], result[1]
+    # the spheres have served; the result takes their memory, which is there and no less
+    simplices, neighbors = (room or _one_after_the_other)(m, store.spheres.view(np.int32))
     in_chunks(threads, lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
+    return simplices, neighbors
+
+
+def _one_after_the_other(m: int, spare: npt.NDArray[np.int32]) -> Result:
+    simplices, neighbors = spare[: 8 * m].reshape(2, m, 4)
     return simplices, neighbors

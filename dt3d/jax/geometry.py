@@ -86,8 +86,11 @@ def power_of_two(vectors: jax.Array) -> jax.Array:
     neither overflow nor underflow.
     """
     greatest = jnp.abs(jax.lax.stop_gradient(vectors)).max(axis=(-2, -1), keepdims=True)
-    _, exponent = jnp.frexp(greatest)
-    return jnp.ldexp(jnp.ones_like(greatest), exponent - 1)
+    info = jnp.finfo(greatest.dtype)
+    # the exponent alone
+    words = jax.lax.bitcast_convert_type(greatest, f"int{info.bits}")
+    words = words >> info.nmant << info.nmant
+    return jnp.maximum(jax.lax.bitcast_convert_type(words, greatest.dtype), info.tiny)
 
 
 def away_from_zero(determinants: jax.Array, rows: jax.Array) -> jax.Array:

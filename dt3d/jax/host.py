@@ -6,6 +6,7 @@ this module does not import it, and takes what NumPy makes of the arguments.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import cache
 
@@ -35,6 +36,36 @@ class _TooMany(Exception):
         self.needed = needed
 
 
+class _Rows:
+    """Room for the simplices and neighbours of one set, int32 (2, capacity, d + 1).
+
+    That of a batch; or, where there is one set, what has served to triangulate it, if that is enough.
+    """
+
+    def __init__(self, capacity: int, d: int, of_batch: np.ndarray | None) -> None:
+        self.shape = (2, capacity, d + 1)
+        self.arrays = of_batch
+
+    def room(self, needed: int, spare: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        if needed > self.shape[1]:
+            raise _TooMany(needed)
+        if self.arrays is None:
+            size = math.prod(self.shape)
+            memory = spare[:size] if len(spare) >= size else np.empty(size, np.int32)
+            self.arrays = memory.reshape(self.shape)
+        return self.arrays[0, :needed], self.arrays[1, :needed]
+
+    @property
+    def finished(self) -> np.ndarray:
+        assert self.arrays is not None
+        return self.arrays
+
+    def pad(self, used: int) -> None:
+        if self.arrays is None:
+            self.arrays = np.empty(self.shape, np.int32)
+        self.arrays[:, used:] = OUTSIDE
+
+
 def numbers(array: npt.ArrayLike) -> np.ndarray:
     """What an argument is: the array itself, or float64 (...) of words, uint32 (..., 2)."""
     given = np.asarray(array)
@@ -53,16 +84,18 @@ def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Array
         sets = numbers(points)
         *batch, n, d = sets.shape
         sets = sets.reshape(-1, n, d)
-        simplices, neighbors = (np.empty((len(sets), capacity, d + 1), np.int32) for _ in range(2))
+        both = np.empty((2, len(sets), capacity, d + 1), np.int32) if len(sets) != 1 else None
+        rows = [_Rows(capacity, d, None if both is None else both[:, k]) for k in range(len(sets))]
         count, status = (np.zeros(len(sets), np.int32) for _ in range(2))
 
         def one(k: int, threads: int | None) -> None:
-            count[k], status[k] = _into_rows(sets[k], (simplices[k], neighbors[k]), threads)
+            count[k], status[k] = _into_rows(sets[k], rows[k], threads)
             if raises and status[k]:
                 which = f"set {k} of {len(sets)}: " if batch else ""
                 raise ValueError(which + _problem(sets[k], Status(int(status[k])), int(count[k]), capacity))
 
         in_whole_arithmetic(lambda: _for_each(len(sets), n < SITES_WORTH_ALL_THREADS, one))
+        simplices, neighbors = rows[0].finished if both is None else both
         shape = (*batch, capacity, d + 1)
         return simplices.reshape(shape), neighbors.reshape(shape), count.reshape(batch), status.reshape(batch)
 
@@ -105,46 +138,35 @@ def _located(sites: np.ndarray, cells: np.ndarray, across: np.ndarray, queries: 
     return Locator(sites.astype(np.float64), cells[:m], across[:m]).find(queries.astype(np.float64))
 
 
-def _into_rows(
-    sites: np.ndarray, rows: tuple[np.ndarray, np.ndarray], threads: int | None
-) -> tuple[int, Status]:
+def _into_rows(sites: np.ndarray, rows: _Rows, threads: int | None) -> tuple[int, Status]:
     """Write simplices and neighbours of sites (n, d), and -1 beyond; how many there are, and the status."""
-    m = count = 0
+    used = count = 0
     status = Status(0)
     points = sites.astype(np.float64)
     if np.isfinite(points).all():
-
-        def room(needed: int) -> tuple[np.ndarray, np.ndarray]:
-            if needed > len(rows[0]):
-                raise _TooMany(needed)
-            return rows[0][:needed], rows[1][:needed]
-
         try:
-            m = count = _triangulate(exactly_scaled(points), threads, room)
+            used = count = _triangulate(exactly_scaled(points), threads, rows)
         except _TooMany as overflow:
             count, status = overflow.needed, Status.OVERFLOW
         except DegenerateInputError:
             status = Status.DEGENERATE
     else:
         status = Status.NOT_FINITE
-    for array in rows:
-        array[m:] = OUTSIDE
+    rows.pad(used)
     return count, status
 
 
-def _triangulate(
-    points: np.ndarray, threads: int | None, room: Callable[[int], tuple[np.ndarray, np.ndarray]]
-) -> int:
-    """Triangulate scaled points, float64 (n, d), into that room; how many simplices there are."""
+def _triangulate(points: np.ndarray, threads: int | None, rows: _Rows) -> int:
+    """Triangulate scaled points, float64 (n, d), into these rows; how many simplices there are."""
     announce_compilation()
     if points.shape[1] == 3:
         from ..insertion import triangulate
 
-        return len(triangulate(points, threads=threads, room=room).simplices)
+        return len(triangulate(points, threads=threads, room=rows.room).simplices)
     from ..threaded2d.configuration import configured
     from ..threaded2d.driver import triangulate as triangulate_in_plane
 
-    return len(triangulate_in_plane(points, configured(len(points), threads=threads), room).triangles)
+    return len(triangulate_in_plane(points, configured(len(points), threads=threads), rows.room).triangles)
 
 
 def _problem(sites: np.ndarray, status: Status, count: int, capacity: int) -> str:

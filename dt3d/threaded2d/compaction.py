@@ -19,6 +19,9 @@ from .columns import triangle
 CHUNK_BITS = 14  # of a node's number within its chunk
 
 
+Room = Callable[[int, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
 class Triangles(NamedTuple):
     """Finite triangles, their neighbours, and the threads that made them."""
 
@@ -62,13 +65,13 @@ def compact(
     nodes: np.ndarray,
     site: np.ndarray,
     threads: int = 1,
-    room: Callable[[int], tuple[np.ndarray, np.ndarray]] | None = None,
+    room: Room | None = None,
 ) -> Triangles:
     """The finite triangles among the nodes that are used, int32 (used, 8).
 
-    ``site`` holds the number of each row of the points, int (n,). ``room(m)`` gives the arrays that triangles
-    and neighbours are written into, int32 (m, 3) in C order, and may raise where there is none; by default
-    they are new.
+    ``site`` holds the number of each row of the points, int (n,). ``room(m, spare)`` gives the arrays that
+    triangles and neighbours are written into, int32 (m, 3) in C order, and may raise where there is none; by
+    default they are new. There is nothing in ``spare``, which is as in `insertion.triangulate`.
     """
     used = len(nodes)
     chunks = -(-used >> CHUNK_BITS)
@@ -77,7 +80,11 @@ def compact(
     run_short_tasks([partial(_number, nodes, k, threads, number, counts) for k in range(threads)])
     before = np.cumsum(counts, dtype=np.int32) - counts
     m = int(counts.sum())
-    triangles, neighbors = room(m) if room else (np.empty((m, 3), np.int32), np.empty((m, 3), np.int32))
+    triangles, neighbors = (room or _new)(m, np.empty(0, np.int32))
     out = Triangles(triangles, neighbors, np.empty(m, np.int16))
     run_short_tasks([partial(_write, nodes, k, threads, number, before, site, out) for k in range(threads)])
     return out
+
+
+def _new(m: int, spare: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)

@@ -18,7 +18,7 @@ from .._numba.threads import run_threads
 from ..ordering.along_curve import along_curve_in_plane
 from . import batch, circumcircle, optimistic, pessimistic, sequential, steps
 from . import columns as c
-from .compaction import compact
+from .compaction import Room, compact
 from .configuration import Options
 from .correction import correct
 from .first import first_triangle
@@ -67,11 +67,11 @@ class Outcome:
 def triangulate(
     points: np.ndarray,
     options: Options,
-    room: Callable[[int], tuple[np.ndarray, np.ndarray]] | None = None,
+    room: Room | None = None,
 ) -> Outcome:
     """Triangulate points, float64 (n, 2), in the range of the exact predicates.
 
-    ``room(m)`` gives the arrays for triangles and neighbours, see `compaction.compact`.
+    ``room`` gives the arrays for triangles and neighbours, see `compaction.compact`.
 
     Raises
     ------

@@ -19,12 +19,21 @@ def x64():
         yield
 
 
+@jax.jit
+def all_measures(points, mesh):
+    return [measure(points, mesh) for measure in MEASURES]
+
+
+@jax.jit
+def sum_and_slope(points, mesh):
+    return jax.value_and_grad(lambda points: sum((a**2).sum() for a in all_measures(points, mesh)))(points)
+
+
 @pytest.mark.parametrize("d", [2, 3])
-@pytest.mark.parametrize("measure", MEASURES)
-def test_derivatives(x64, d, measure):
+def test_derivatives(x64, d):
     points = jnp.asarray(grid(2, d) + 0.2 * uniform(2**d, d, seed=3))
     mesh = delaunay(points, capacity=20)
-    check_grads(lambda points: measure(points, mesh), (points,), order=1, eps=1e-6)
+    check_grads(lambda points: all_measures(points, mesh), (points,), order=1, eps=1e-6)
 
 
 @pytest.mark.parametrize("d", [2, 3])
@@ -37,11 +46,10 @@ def test_values(x64, d, name):
     corners = points[tri.simplices]
     edges = corners[:, 1:] - corners[:, :1]
     expected = np.linalg.det(edges / np.abs(edges).max()) * np.abs(edges).max() ** d / (6 if d == 3 else 2)
-    found = volumes(points, mesh)
+    found, centers, radii = all_measures(points, mesh)
     np.testing.assert_allclose(found[:m], expected, rtol=1e-9, atol=1e-12 * np.abs(expected).max())
     assert (found[m:] == 0).all()
     # the centre is as far from each corner as the radius says
-    centers, radii = circumcenters(points, mesh), circumradii(points, mesh)
     scale = np.abs(points).max()
     distances = scale * np.linalg.norm((corners - centers[:m, None]) / scale, axis=2)
     extent = np.ptp(points, axis=0).max()
@@ -70,19 +78,11 @@ def test_float32_does_not_overflow(d, scale):
     assert np.abs(gradient).max() * scale < 10
 
 
-def all_measures(points, mesh):
-    return [measure(points, mesh) for measure in MEASURES]
-
-
-@jax.jit
-def sum_and_slope(points, mesh):
-    return jax.value_and_grad(lambda points: sum((a**2).sum() for a in all_measures(points, mesh)))(points)
-
-
 @pytest.mark.parametrize("d", [2, 3])
 def test_the_padding_has_no_part_in_derivatives(d):
     points = jnp.asarray(uniform(20, d), jnp.float32)
-    few, many = (delaunay(points, capacity=capacity) for capacity in (delaunay(points).count.item(), 500))
+    many = delaunay(points)
+    few = delaunay(points, capacity=many.count.item())
     for one, other in zip(sum_and_slope(points, few), sum_and_slope(points, many), strict=True):
         assert np.isfinite(other).all()
         np.testing.assert_allclose(one, other, rtol=1e-4)
@@ -90,13 +90,14 @@ def test_the_padding_has_no_part_in_derivatives(d):
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_simplices_that_have_become_flat_are_finite(d):
-    points = jnp.asarray(uniform(10, d), jnp.float32)
+    points = jnp.asarray(uniform(20, d), jnp.float32)
     mesh = delaunay(points)
     for moved in (points.at[:, 0].set(0.5), points.at[:, 1].set(points[:, 0]), jnp.zeros_like(points)):
-        for values in (*all_measures(moved, mesh), *sum_and_slope(moved, mesh)):
+        found, centers, radii = all_measures(moved, mesh)
+        for values in (centers, radii, *sum_and_slope(moved, mesh)):
             assert np.isfinite(values).all()
-        assert np.abs(circumcenters(moved, mesh)).max() < 1e7
-        assert (jnp.abs(volumes(moved, mesh)) < 1e-7).all()
+        assert np.abs(centers).max() < 1e7
+        assert np.abs(found).max() < 1e-7
 
 
 def test_the_clamp_of_a_sliver():
@@ -105,8 +106,7 @@ def test_the_clamp_of_a_sliver():
     mesh = delaunay(points)
     square = jnp.array([[0, 1, 2, 3]], jnp.int32)
     sliver = type(mesh)(square, -jnp.ones_like(square), jnp.array(1), jnp.array(0))
-    (center,) = circumcenters(points, sliver)
-    (radius,) = circumradii(points, sliver)
+    _, (center,), (radius,) = all_measures(points, sliver)
     assert np.isfinite(center).all()
     assert np.isfinite(radius)
     assert radius < 1e7
