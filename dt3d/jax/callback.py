@@ -1,26 +1,91 @@
-"""How a compiled program calls the host: once for a batch, without derivatives, with every bit of float64."""
+"""How a compiled program calls the host: once for a batch, without derivatives, in a way that cannot hang.
+
+`jax.pure_callback` makes arrays of JAX of the arguments. It copies those above 100 kB in XLA's own threads,
+and where all of these wait in callbacks no copy is ever made: four threads with some calls each in flight
+hang on two cores (github.com/jax-ml/jax/issues/24255). It also makes float32 of float64 where the caller has
+64 bits by ``with jax.enable_x64(True)``, which does not hold in XLA's threads. So this is a primitive of its
+own, with the one rule of `jax.interpreters.mlir` that hands over arrays of NumPy.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any, cast
 
 import jax
-import jax.numpy as jnp
+from jax.extend.core import Primitive
+from jax.interpreters import batching, mlir
 
 from .host import Arrays
 
+Function = Callable[..., Arrays]
+Shapes = tuple[jax.core.ShapedArray, ...]
+
+_HOST_CALL = Primitive("dt3d_host_call")
+_HOST_CALL.multiple_results = True
+
 
 def call_host(
-    function: Callable[..., Arrays], results: Sequence[jax.ShapeDtypeStruct], *arrays: jax.Array
-) -> Sequence[jax.Array]:
-    """What the function of these arrays returns, of those shapes and dtypes; a constant to derivatives.
+    function: Function, results: Sequence[tuple[tuple[int, ...], type]], *arrays: jax.Array
+) -> list[jax.Array]:
+    """What the function of these arrays, of NumPy, returns: arrays of those shapes and dtypes.
 
-    Float64 goes as pairs of 32-bit words, see `host.numbers`: JAX hands the arguments over in a thread of its
-    own, where ``with jax.enable_x64(True)`` of the caller's does not hold, and rounds them to float32.
+    A constant to derivatives. Under `jax.vmap` all arrays get a leading dimension, 1 where one is the same
+    for all, and the results have it, too.
     """
-    words = [
-        jax.lax.bitcast_convert_type(array, jnp.uint32) if array.dtype == jnp.float64 else array
-        for array in jax.lax.stop_gradient(arrays)
-    ]
-    called: Sequence[jax.Array] = jax.pure_callback(function, results, *words, vmap_method="expand_dims")
+    shapes = tuple(jax.core.ShapedArray(shape, dtype) for shape, dtype in results)
+    called: list[jax.Array] = _HOST_CALL.bind(
+        *jax.lax.stop_gradient(arrays), function=function, shapes=shapes
+    )
     return called
+
+
+@cache
+def _compiled(function: Function, shapes: Shapes) -> Callable[..., list[jax.Array]]:
+    """For calls outside of programs; one for all calls, as the caches of `jax.jit` want."""
+
+    def call(*arrays: jax.Array) -> list[jax.Array]:
+        called: list[jax.Array] = _HOST_CALL.bind(*arrays, function=function, shapes=shapes)
+        return called
+
+    return jax.jit(call)
+
+
+def _run(*arrays: jax.Array, function: Function, shapes: Shapes) -> list[jax.Array]:
+    return _compiled(function, shapes)(*arrays)
+
+
+def _shapes(*arrays: jax.core.ShapedArray, function: Function, shapes: Shapes) -> Shapes:
+    return shapes
+
+
+def _of_batch(
+    arrays: Sequence[jax.Array], axes: Sequence[int | None], *, function: Function, shapes: Shapes
+) -> tuple[list[jax.Array], list[int]]:
+    (size,) = {a.shape[axis] for a, axis in zip(arrays, axes, strict=True) if axis is not None}
+    moved = [
+        a[None] if axis is None else jax.numpy.moveaxis(a, axis, 0)
+        for a, axis in zip(arrays, axes, strict=True)
+    ]
+    of_all = tuple(jax.core.ShapedArray((size, *s.shape), s.dtype) for s in shapes)
+    return _HOST_CALL.bind(*moved, function=function, shapes=of_all), [0] * len(shapes)
+
+
+def _lowered(
+    context: mlir.LoweringRuleContext,
+    *values: Any,  # of the compiler, as what is returned
+    function: Function,
+    shapes: Shapes,
+) -> Any:
+    given, results = cast(Sequence[Shapes], (context.avals_in, context.avals_out))
+    called, _, _ = mlir.emit_python_callback(
+        context, function, None, list(values), given, results, has_side_effect=False
+    )
+    return called
+
+
+_HOST_CALL.def_impl(_run)
+_HOST_CALL.def_abstract_eval(_shapes)
+batching.primitive_batchers[_HOST_CALL] = _of_batch
+mlir.register_lowering(_HOST_CALL, _lowered)

@@ -1,7 +1,7 @@
 """What the host does for a compiled program, in threads of its own: it triangulates and locates.
 
 Nothing here may call JAX, which waits for this to end; with all of its threads waiting it never would. So
-this module does not import it, and takes what NumPy makes of the arguments.
+this module does not import it, and its arguments are arrays of NumPy (`callback.py`).
 """
 
 from __future__ import annotations
@@ -66,12 +66,6 @@ class _Rows:
         self.arrays[:, used:] = OUTSIDE
 
 
-def numbers(array: npt.ArrayLike) -> np.ndarray:
-    """What an argument is: the array itself, or float64 (...) of words, uint32 (..., 2)."""
-    given = np.asarray(array)
-    return given.view(np.float64)[..., 0] if given.dtype == np.uint32 else given
-
-
 @cache
 def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Arrays]:
     """The function of points (..., n, d) that triangulates; one object for one pair, as JAX's caches want.
@@ -81,7 +75,7 @@ def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Array
     """
 
     def triangulate(points: npt.ArrayLike) -> Arrays:
-        sets = numbers(points)
+        sets = np.asarray(points)
         *batch, n, d = sets.shape
         sets = sets.reshape(-1, n, d)
         both = np.empty((2, len(sets), capacity, d + 1), np.int32) if len(sets) != 1 else None
@@ -111,8 +105,8 @@ def locate(
     leading dimension is 1 where the array is the same for all.
     """
     announce_compilation()
-    given = [numbers(a) for a in (points, simplices, neighbors)]
-    queries = numbers(xi)
+    given = [np.asarray(a) for a in (points, simplices, neighbors)]
+    queries = np.asarray(xi)
     own = np.broadcast_shapes(*(a.shape[:-2] for a in given))
     batch = np.broadcast_shapes(own, queries.shape[:-2])
     queries = np.broadcast_to(queries, batch + queries.shape[-2:])

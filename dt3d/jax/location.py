@@ -6,6 +6,7 @@ from typing import Literal
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 
 from .callback import call_host
@@ -68,6 +69,5 @@ def find_simplex(points: ArrayLike, mesh: Mesh, xi: ArrayLike, method: Method = 
     if method == "walk":
         found = for_each_set(walk, sets)(sites, simplices, neighbors, flat)
     else:
-        numbers = jax.ShapeDtypeStruct(flat.shape[:-1], jnp.int32)
-        (found,) = call_host(locate, [numbers], sites, simplices, neighbors, flat)
+        (found,) = call_host(locate, [(flat.shape[:-1], np.int32)], sites, simplices, neighbors, flat)
     return found.reshape(queries.shape[:-1])

@@ -26,7 +26,7 @@ def delaunay(
 ) -> Mesh:
     """The Delaunay triangulation of points in the plane or in space, as `dt3d.Delaunay` finds it.
 
-    The host triangulates, in one `jax.pure_callback` for all sets of a batch, the nested ones of `jax.vmap`
+    The host triangulates, in one callback for all sets of a batch, the nested ones of `jax.vmap`
     included: one set on each of its threads, or all threads on a set where there are few and they are
     large. On a GPU or TPU the points are copied to the host and the program waits.
 
@@ -82,8 +82,7 @@ def delaunay(
     if on_error not in ("raise", "status"):
         msg = f'on_error must be "raise" or "status", got {on_error!r}'
         raise ValueError(msg)
-    simplices = jax.ShapeDtypeStruct((*batch, rows, d + 1), jnp.int32)
-    number = jax.ShapeDtypeStruct(tuple(batch), jnp.int32)
+    simplices, number = ((*batch, rows, d + 1), np.int32), (tuple(batch), np.int32)
     shapes = [simplices, simplices, number, number]
     return Mesh(*call_host(triangulator(rows, on_error == "raise"), shapes, sites))
 

@@ -34,3 +34,17 @@ def test_all_finite_leaves_and_their_neighbours(name, chunk_bits, monkeypatch):
         ]
         np.testing.assert_array_equal(out.thread, -1 - nodes[kept, c.CHILD])
         assert [a.dtype for a in out] == [np.int32, np.int32, np.int16]
+
+
+def test_room_for_the_result():
+    store, _ = inserted(
+        EVERY_SET["uniform"](60) if "uniform" in EVERY_SET else next(iter(EVERY_SET.values()))(60)
+    )
+    nodes, site = store.nodes[: store.used], np.arange(len(store.points))
+    want = compact(nodes, site)
+    m = len(want.triangles)
+    own = np.full((2, m + 5, 3), 7, np.int32)
+    out = compact(nodes, site, room=lambda needed, spare: (own[0, :needed], own[1, :needed]))
+    np.testing.assert_array_equal(own[:, :m], [want.triangles, want.neighbors])
+    assert (own[:, m:] == 7).all()
+    assert np.shares_memory(out.triangles, own)

@@ -48,3 +48,30 @@ def test_reports_are_far_apart_and_end_at_the_end(monkeypatch):
     assert left == sorted(left, reverse=True)
     assert len(set(left)) == len(left) > 3
     assert (-np.diff(left[:-1]) >= 100).all()
+
+
+def test_room_for_the_result():
+    points = np.random.default_rng(0).random((200, 3))
+    want = driver.triangulate(points)
+    m = len(want.simplices)
+    own = np.full((2, m + 5, 4), 7, np.int32)
+    given = []
+
+    def room(needed, spare):
+        given.append((needed, spare.dtype, spare.ndim, len(spare) >= 8 * needed))
+        return own[0, :needed], own[1, :needed]
+
+    out = driver.triangulate(points, room=room)
+    assert given == [(m, np.int32, 1, True)]
+    np.testing.assert_array_equal(own[:, :m], [want.simplices, want.neighbors])
+    assert (own[:, m:] == 7).all()
+    assert np.shares_memory(out.simplices, own)
+    assert np.shares_memory(out.neighbors, own)
+
+
+def test_no_room_for_the_result():
+    def room(needed, spare):
+        raise KeyError(needed)
+
+    with pytest.raises(KeyError, match="1"):
+        driver.triangulate(np.concatenate([np.zeros((1, 3)), np.eye(3)]), room=room)
