@@ -51,16 +51,21 @@ class AlphaComplex:
     faces: tuple[np.ndarray, ...]
 
     def __init__(self, tri: Delaunay) -> None:
+        from .geometry.measures import scaled_sites  # it loads numba
+
         top, rows, facets = _facets(tri)
-        simplices, values, faces = [top, facets], [tri.circumradii**2], [rows]
+        # at about 1, since the values of triangles are made of fourth powers, which over- or underflow
+        points, unit = scaled_sites(tri.points)
+        radii = tri.circumradii if unit == 1.0 else tri.circumradii / unit
+        simplices, values, faces = [top, facets], [radii**2], [rows]
         if tri.ndim == 3:
-            values.append(_of_triangles(tri.points, top, rows, facets, values[0]))
+            values.append(_of_triangles(points, top, rows, facets, values[0]))
             ends = facets.astype(np.int64)
             keys = ends[:, [1, 0, 0]] << 32 | ends[:, [2, 2, 1]]
             edges, row_of = np.unique(keys, return_inverse=True)
             simplices.append(np.column_stack([edges >> 32, edges & 0xFFFFFFFF]))
             faces.append(row_of.reshape(-1, 3).astype(np.int32))
-        values.append(_of_edges(tri.points, simplices[-2], faces[-1], simplices[-1], values[-1]))
+        values.append(_of_edges(points, simplices[-2], faces[-1], simplices[-1], values[-1]))
         used = np.zeros(len(tri.points), bool)
         used[tri.simplices] = True
         number = np.cumsum(used) - 1
@@ -69,7 +74,8 @@ class AlphaComplex:
         values.append(np.zeros(len(simplices[-1])))
         faces.append(np.empty((0, 1), np.int32))
         self.simplices = tuple(frozen(array.astype(np.int32)) for array in reversed(simplices))
-        self.values = tuple(frozen(array) for array in reversed(values))
+        # by turns, since the square of the unit may over- or underflow where a value does not
+        self.values = tuple(frozen(array * unit * unit) for array in reversed(values))
         self.faces = tuple(frozen(array) for array in reversed(faces))
 
     def __len__(self) -> int:
@@ -184,21 +190,9 @@ def _of_triangles(
     points: np.ndarray, top: np.ndarray, rows: np.ndarray, triangles: np.ndarray, values: np.ndarray
 ) -> np.ndarray:
     """The values of the facets of tetrahedra, float64 (f,)."""
-    a = points[triangles[:, 0]]
-    u, v = points[triangles[:, 1]] - a, points[triangles[:, 2]] - a
-    normal = np.cross(u, v)
-    uu, vv, nn = ((x * x).sum(axis=1, keepdims=True) for x in (u, v, normal))
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        center = np.cross(uu * v - vv * u, normal) / (2 * nn)  # from a
-        own = (center * center).sum(axis=1)
-        beaten = np.zeros(len(triangles), bool)
-        for k in range(4):
-            facet = rows[:, k]
-            x = points[top[:, k]] - a[facet]
-            # |x - center|^2 < |center|^2
-            inside = ((x - 2 * center[facet]) * x).sum(axis=1) < 0
-            beaten[facet[inside]] = True
-    own[np.isnan(own)] = np.inf  # a triangle that is flat to rounding appears with a tetrahedron
+    from .geometry.gabriel import triangles_of_tetrahedra  # it loads numba
+
+    own, beaten = triangles_of_tetrahedra(points, top, rows, triangles)
     return _appearing(own, _least_of(rows, values, len(triangles)), beaten)
 
 
@@ -206,12 +200,7 @@ def _of_edges(
     points: np.ndarray, triangles: np.ndarray, rows: np.ndarray, edges: np.ndarray, values: np.ndarray
 ) -> np.ndarray:
     """The values of the edges of triangles, float64 (e,): a vertex is inside where its angle is obtuse."""
-    side = points[edges[:, 0]] - points[edges[:, 1]]
-    own = (side * side).sum(axis=1) / 4
-    beaten = np.zeros(len(edges), bool)
-    for k in range(3):
-        i, j = (other for other in range(3) if other != k)
-        apex = points[triangles[:, k]]
-        obtuse = ((points[triangles[:, i]] - apex) * (points[triangles[:, j]] - apex)).sum(axis=1) < 0
-        beaten[rows[obtuse, k]] = True
+    from .geometry.gabriel import edges_of_triangles
+
+    own, beaten = edges_of_triangles(points, triangles, rows, edges)
     return _appearing(own, _least_of(rows, values, len(edges)), beaten)
