@@ -369,7 +369,8 @@ class Delaunay(SciPyMembers):
         >>> tri.alpha_shape(2).boundary.shape
         (3, 2)
         """
-        if not (isinstance(alpha, int | float | np.number) and alpha >= 0):
+        number = isinstance(alpha, int | float | np.number) and not isinstance(alpha, bool)
+        if not (number and alpha >= 0):
             msg = f"alpha must be a radius, a number that is not negative, got {alpha!r}"
             raise ValueError(msg)
         return self.subset(self.circumradii <= alpha)

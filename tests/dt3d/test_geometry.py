@@ -203,7 +203,7 @@ def test_boundaries_and_alpha_shapes(d):
     assert (counts % 2 == 0).all()
     assert len(tri.alpha_shape(0).simplices) == 0
     assert len(tri.alpha_shape(np.inf).simplices) == tri.nsimplex
-    for alpha in (-1, np.nan, "auto", None):
+    for alpha in (-1, np.nan, "auto", None, True):
         with pytest.raises(ValueError, match="alpha must be a radius"):
             tri.alpha_shape(alpha)
 
