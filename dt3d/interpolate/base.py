@@ -89,6 +89,16 @@ class Interpolator:
         out = self._evaluate(points, self._columns())
         return self._shaped(out, shape)
 
+    def _check_whole(self) -> None:
+        """Raise a ValueError for a triangulation in which the search may not find its way."""
+        name = type(self).__name__
+        if not isinstance(self.tri, Delaunay):
+            msg = f"{name} needs a whole triangulation, got a part of one; pass part.whole"
+            raise ValueError(msg)
+        if not self.tri._exact:
+            msg = f'{name} needs an exact triangulation, got one of robustness="perturb"; pass its points'
+            raise ValueError(msg)
+
     def _evaluate(self, points: np.ndarray, columns: np.ndarray) -> np.ndarray:
         """The values at points (k, d) by columns float64 (n, c): float64 (k, c)."""
         raise NotImplementedError

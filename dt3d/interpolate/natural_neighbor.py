@@ -82,9 +82,7 @@ class NaturalNeighbor(Interpolator):
         rescale: bool = False,
     ) -> None:
         super().__init__(points, values, fill_value, rescale)
-        if not isinstance(self.tri, Delaunay):
-            msg = "NaturalNeighbor needs a whole triangulation, got a part of one; pass part.whole"
-            raise ValueError(msg)
+        self._check_whole()
 
     _derived: ClassVar[tuple[str, ...]] = ("_arrays", "_scratch")
 

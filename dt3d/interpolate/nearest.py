@@ -113,9 +113,7 @@ class Nearest(Interpolator):
         self, points: npt.ArrayLike | Delaunay, values: npt.ArrayLike, rescale: bool = False
     ) -> None:
         super().__init__(points, values, np.nan, rescale)
-        if not isinstance(self.tri, Delaunay):
-            msg = "Nearest needs a whole triangulation, got a part of one; pass part.whole"
-            raise ValueError(msg)
+        self._check_whole()
 
     def sites(self, *xi: npt.ArrayLike) -> np.ndarray:
         """The site nearest to each point.

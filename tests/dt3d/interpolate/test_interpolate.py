@@ -234,6 +234,8 @@ def test_what_is_refused(kind):
     if kind is not Linear:
         with pytest.raises(ValueError, match="needs a whole triangulation, got a part of one"):
             kind(tri.subset([0, 1]), values)
+        with pytest.raises(ValueError, match="needs an exact triangulation"):
+            kind(dt3d.Delaunay(RNG.random((30, 3)), robustness="perturb"), values)
 
 
 def test_a_part_of_a_triangulation_has_holes():
