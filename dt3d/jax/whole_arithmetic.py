@@ -24,6 +24,7 @@ ENVIRONMENT_BYTES = 256  # fenv_t has 32 on x86-64, 8 on AArch64
 DEFAULT_ENVIRONMENT = ctypes.c_void_p(-1)  # FE_DFL_ENV of glibc and musl
 
 _C = ctypes.CDLL(None) if sys.platform == "linux" else None
+HAS_FESETENV = _C is not None and hasattr(_C, "fesetenv")
 
 
 def is_whole() -> bool:
@@ -47,11 +48,11 @@ def in_whole_arithmetic(work: Callable[[], R]) -> R:
     return in_unchanged_thread(work)
 
 
-_TASKS: SimpleQueue[Callable[[], None]] = SimpleQueue()
+_TASKS: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
 
 
 def in_unchanged_thread(work: Callable[[], R]) -> R:
-    """What ``work`` returns or raises, in a thread whose first ancestor began when this was imported."""
+    """What ``work`` returns or raises, in a thread that one has started which `begin` has."""
     result: Future[R] = Future()
 
     def run() -> None:
@@ -64,15 +65,22 @@ def in_unchanged_thread(work: Callable[[], R]) -> R:
     return result.result()
 
 
-def _start_each() -> None:
-    while True:
-        threading.Thread(target=_TASKS.get(), daemon=True).start()
-
-
-def _begin() -> None:
+def begin() -> None:
+    """Start the thread that starts others; in one whose arithmetic is whole."""
     threading.Thread(target=_start_each, daemon=True).start()
 
 
-_begin()
-if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
-    os.register_at_fork(after_in_child=_begin)  # no thread but one is there
+def end() -> None:
+    """Let it end."""
+    _TASKS.put(None)
+
+
+def _start_each() -> None:
+    while (task := _TASKS.get()) is not None:
+        threading.Thread(target=task, daemon=True).start()
+
+
+if not HAS_FESETENV:  # where this is imported, not where XLA calls
+    begin()
+    if hasattr(os, "register_at_fork"):  # not on Windows, which has no fork
+        os.register_at_fork(after_in_child=begin)  # no thread but one is there

@@ -112,6 +112,15 @@ def test_a_thousand_calls_from_four_threads_do_not_hang():
     assert (out.returncode, out.stdout) == (0, "done\n"), out.stderr
 
 
+@pytest.fixture
+def starter():
+    """The thread that starts others where the C library does not serve."""
+    whole_arithmetic.begin()
+    yield
+    whole_arithmetic.end()
+
+
+@pytest.mark.usefixtures("starter")
 @pytest.mark.parametrize("with_the_c_library", [True, False])
 def test_arithmetic_is_whole_where_that_of_xla_is_not(monkeypatch, with_the_c_library):
     if not with_the_c_library:
@@ -135,6 +144,7 @@ def test_arithmetic_is_whole_where_that_of_xla_is_not(monkeypatch, with_the_c_li
     assert seen == [False, True, True, False]
 
 
+@pytest.mark.usefixtures("starter")
 @pytest.mark.parametrize("where", [in_whole_arithmetic, in_unchanged_thread])
 def test_what_is_raised_comes_to_the_caller(where):
     def fail():
@@ -175,11 +185,12 @@ def test_a_failure_stops_the_other_threads(monkeypatch):
 
 
 @pytest.mark.skipif(not hasattr(__import__("os"), "fork"), reason="this system has no fork")
-def test_a_process_forked_before_jax_ran():
+def test_a_forked_process_has_a_starter_of_its_own():
     code = """
-import os, numpy as np
-import dt3d.jax
-from dt3d.jax.whole_arithmetic import in_unchanged_thread
+import os, sys, jax, dt3d.insertion
+sys.platform = "elsewhere"  # where the C library is not called
+from dt3d.jax.whole_arithmetic import HAS_FESETENV, in_unchanged_thread
+assert not HAS_FESETENV
 child = os.fork()
 if not child:
     os._exit(in_unchanged_thread(lambda: 7))
