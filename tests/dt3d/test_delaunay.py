@@ -55,6 +55,7 @@ def test_equals_scipy_at_twenty_sizes(k, n, machine):
     assert_equals_scipy(random_set(k, n), MACHINES[machine]())
 
 
+@pytest.mark.slow
 def test_five_thousand_sites_equal_scipys():
     assert_equals_scipy(random_set(0, 5000), sv.Device())
 
@@ -154,6 +155,7 @@ def test_single_precision():
     assert len(want ^ got) < 0.02 * len(want)
 
 
+@pytest.mark.slow
 def test_real_sets_equal_scipys(shared_points):
     for name in ("pdb_1a8o", "md_fcc", "water_box", "pcl_bun0"):
         assert_equals_scipy(shared_points(name), sv.Device())

@@ -14,6 +14,7 @@ from dt3d.experiments.questions.levels import facets_of, growth, random_facets
 from dt3d.experiments.questions.seeds import NODES, RANDOM_EACH, expand, starts
 
 
+@pytest.mark.slow
 def test_random_facets_take_the_rounds_that_the_graph_says():
     points = sets.rand(80, 4)
     row, *_ = expand(RANDOM_EACH, points, starts(points, 4)[RANDOM_EACH])

@@ -14,6 +14,7 @@ from dt3d.experiments.paper import TABLE1, TABLE3, TABLE3_TETRAHEDRA
 from dt3d.experiments.table1 import rows, worst_row
 
 
+@pytest.mark.slow
 def test_small_rows_agree_with_the_paper(tmp_path):
     console = Console(record=True, width=160, file=open(tmp_path / "screen", "w"))  # noqa: SIM115
     with console.file:

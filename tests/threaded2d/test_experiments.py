@@ -63,7 +63,10 @@ def test_the_values_of_the_paper():
     assert paper.CIRCUMCIRCLE[100_000][2] == 2.399
 
 
-@pytest.mark.parametrize("name", ["arc", "helping", "queue", "subdivision", "wrong"])
+@pytest.mark.parametrize(
+    "name",
+    ["arc", "subdivision", "wrong", *(pytest.param(n, marks=pytest.mark.slow) for n in ("helping", "queue"))],
+)
 def test_virtual_tables_are_the_same_twice(name, tmp_path):
     tables = []
     for k in range(2):

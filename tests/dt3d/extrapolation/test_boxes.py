@@ -4,6 +4,7 @@ import itertools
 
 import hypothesis.strategies as st
 import jax.numpy as jnp
+import pytest
 from hypothesis import given
 
 from dt3d.extrapolation.boxes import Box, Grid, cell_of, contains, difference_cell, extend, volume
@@ -35,6 +36,7 @@ def cells(b):
 NOTHING = Box(*(jnp.int32(x) for x in (0, -1, 0, -1, 0, -1)))
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_every_cell_of_the_difference_is_named_once(data):
     outer = data.draw(boxes())

@@ -60,6 +60,7 @@ def test_the_loop_goes_through_the_same_rounds(name):
     assert tuple(per_round) == tri.stats.tetrahedra_per_iteration
 
 
+@pytest.mark.slow
 def test_compiled_steps_count_rounds_and_waves():
     points = SETS["uniform"]
     ours = dt3d.Delaunay(points, machine=sv.Device())

@@ -28,12 +28,12 @@ def test_the_paper_s_values():
 @pytest.mark.parametrize(
     "options",
     [
-        {"sites_per_cell": 2},
-        {"sites_per_cell": 32},
         {"sites_per_cell": 16, "sites_per_warrant": 3},
-        {"preset_limit": 1},
-        {"search": "caps"},
-        {"search": "caps", "cells": "auto"},
+        pytest.param({"sites_per_cell": 2}, marks=pytest.mark.slow),
+        pytest.param({"sites_per_cell": 32}, marks=pytest.mark.slow),
+        pytest.param({"preset_limit": 1}, marks=pytest.mark.slow),
+        pytest.param({"search": "caps"}, marks=pytest.mark.slow),
+        pytest.param({"search": "caps", "cells": "auto"}, marks=pytest.mark.slow),
     ],
 )
 def test_constants_change_the_work_alone(options):

@@ -42,6 +42,7 @@ def test_most_searches_end_within_two_rounds():
     assert sum(s.search_rounds[:2]) > 0.9 * s.face_expansions  # "most": Teng et al. 1993, section 7
 
 
+@pytest.mark.slow
 def test_the_preset_is_the_same_on_simulated_processors():
     points = np.random.default_rng(5).random((300, 3))
     here = dt3d.Delaunay(points, preset="teng1993")

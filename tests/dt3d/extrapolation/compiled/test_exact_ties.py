@@ -15,9 +15,8 @@ TIED = {
 }
 
 
-@pytest.mark.parametrize(
-    "name", ["grid", *(pytest.param(name, marks=pytest.mark.slow) for name in list(TIED)[1:])]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TIED)
 def test_sets_with_ties(name):
     found, _ = compiled(TIED[name])
     assert_equal_to_insertion(TIED[name], found)
