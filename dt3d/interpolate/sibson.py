@@ -20,13 +20,12 @@ import numpy as np
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from .._star import side_of_facet
-from .._topology import OUTSIDE
+from .._topology import OUTSIDE, OUTWARD
 from ..geometry.barycentric import plain_weights, weights_of_pairs
 from ..geometry.pairs import RELIABLE, cross, dot, extent, shrinking, sides_in_plane, sides_in_space
 from ..predicates import double_double as dd
 from ..predicates import plane, space
 
-MOST_SIMPLICES = 1024  # of a cavity at first; the arrays grow
 WELL_SHAPED = 2.0**-16  # as in `dt3d.geometry.barycentric`
 
 WORST_SUM = 1e-10  # of a neighbour's distance: what the weighted sum of neighbours may be off
@@ -286,17 +285,11 @@ def _sixth(u, v, p, q):
 @cached_njit(error_model="numpy")
 def _outward(simplices, t, k):
     """The facet opposite the k-th vertex, counter-clockwise from outside."""
-    if k == 0:
-        return simplices[t, 1], simplices[t, 2], simplices[t, 3]
-    if k == 1:
-        return simplices[t, 0], simplices[t, 3], simplices[t, 2]
-    if k == 2:
-        return simplices[t, 0], simplices[t, 1], simplices[t, 3]
-    return simplices[t, 0], simplices[t, 2], simplices[t, 1]
+    return simplices[t, OUTWARD[k, 0]], simplices[t, OUTWARD[k, 1]], simplices[t, OUTWARD[k, 2]]
 
 
 @cached_njit(error_model="numpy")
-def _add_facet(rows, ends, p, q, y, scratch):
+def _add_facet(rows, ends, p, q, scratch):
     """Add a facet of three sites, ccw from the side of q, to what is taken of their cells."""
     a, b, c = ends
     sizes = _sixth(_from_in_space(rows, b, rows[a]), _from_in_space(rows, c, rows[a]), p, q)
@@ -350,14 +343,14 @@ def _cells_in_space(cells, y, stamp, sizes, scratch):
             u = cells.neighbors[t, k]
             if u > t and scratch.seen[u] == stamp:
                 q = _old_center_in_space(cells, scratch.offsets, u, y)
-                _add_facet(rows, _outward(simplices, t, k), p, q, y, scratch)
+                _add_facet(rows, _outward(simplices, t, k), p, q, scratch)
     edges, waiting = scratch.edges, 0
     for i in range(open_facets):
         t, k = scratch.facets[i]
         p = _old_center_in_space(cells, scratch.offsets, t, y)
         q = scratch.centers[i, 0], scratch.centers[i, 1], scratch.centers[i, 2]
         ends = _outward(simplices, t, k)
-        _add_facet(rows, ends, p, q, y, scratch)
+        _add_facet(rows, ends, p, q, scratch)
         for j in range(3):
             a, b = ends[j], ends[(j + 1) % 3]
             at = 0

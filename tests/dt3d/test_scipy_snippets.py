@@ -168,7 +168,7 @@ def test_pictures_of_triangles():
 
 @DIMENSIONS
 def test_graphs(d):
-    networkx = pytest.importorskip("networkx")
+    import networkx
 
     def graph(Delaunay):
         indptr, indices = Delaunay(POINTS[d]).vertex_neighbor_vertices
@@ -257,7 +257,8 @@ def test_cells_of_voronoi_by_a_walk_around_a_vertex(d):
 
 
 def test_a_hull_as_a_mesh():
-    trimesh = pytest.importorskip("trimesh")
+    import trimesh
+
     tri = OURS(POINTS[3])
     hull = trimesh.Trimesh(POINTS[3], tri.convex_hull)
     assert hull.is_volume

@@ -87,15 +87,18 @@ def test_every_test_of_delaunay_is_run_or_impossible(suite):
     assert not set(RUN) & set(IMPOSSIBLE)
 
 
-@pytest.mark.parametrize("kind", CLASSES)
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in RUN]
+    ("name", "kind"),
+    [
+        pytest.param(name, kind, marks=[pytest.mark.slow] if name in SLOW else [])
+        for name in RUN
+        for kind in CLASSES
+        if kind == "to_scipy" or name not in ONLY_AS_SCIPY
+    ],
 )
 def test_scipys(name, kind, suite, monkeypatch):
     if name not in named_for_delaunay(suite):
         pytest.skip(f"SciPy {scipy.__version__} does not have {name}")
-    if kind == "dt3d.Delaunay" and name in ONLY_AS_SCIPY:
-        pytest.skip(ONLY_AS_SCIPY[name])
     made = []
 
     def delaunay(points, *args, **options):
