@@ -31,7 +31,7 @@ SITES_PER_REPORT = 100_000  # sites between two reports
 FIRST_SAMPLE = 1000  # sites among which the first tetrahedron is sought
 
 Result = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]  # simplices and neighbors, (m, 4)
-Room = Callable[[int, npt.NDArray[np.int32]], Result]
+Room = Callable[[int], Result]
 
 
 @dataclass
@@ -61,9 +61,8 @@ def triangulate(
     ``report(left, slots)`` is called after every stretch of sites. Fast if they are scaled so that the
     greatest coordinate is about 1. There are at most as many threads as cores, since threads that never wait
     for each other gain nothing from taking turns; with ``threads`` of None also fewer where more do not pay.
-    ``room(m, spare)`` gives the two arrays, int32 (m, 4) in C order, that the result is written into, and may
-    raise where there is none. It can take them from ``spare``, memory of the run of one dimension that has
-    served, as is done by default.
+    ``room(m)`` gives the two arrays, int32 (m, 4) in C order, that the result is written into, and may raise
+    where there is none. By default they are in memory that has served the run.
 
     Raises
     ------
@@ -180,12 +179,10 @@ def _compact(
     firsts = dict(zip(begins, total[:-1].tolist(), strict=True))
     m = int(total[-1])
     in_chunks(threads, lambda i, j: number_finite(mesh, i, j, firsts[i], number), slots)
-    # the spheres have served; the result takes their memory, which is there and no less
-    simplices, neighbors = (room or _one_after_the_other)(m, store.spheres.view(np.int32))
+    if room is None:
+        # the spheres have served; the result takes their memory, which is there and no less
+        simplices, neighbors = store.spheres.view(np.int32)[: 8 * m].reshape(2, m, 4)
+    else:
+        simplices, neighbors = room(m)
     in_chunks(threads, lambda i, j: write_finite(mesh, i, j, number, original, simplices, neighbors), slots)
-    return simplices, neighbors
-
-
-def _one_after_the_other(m: int, spare: npt.NDArray[np.int32]) -> Result:
-    simplices, neighbors = spare[: 8 * m].reshape(2, m, 4)
     return simplices, neighbors

@@ -1,17 +1,14 @@
 """What the host does for a compiled program, in threads of its own: it triangulates and locates.
 
 Nothing here may call JAX, which waits for this to end; with all of its threads waiting it never would. So
-this module does not import it, and its arguments are arrays of NumPy (`callback.py`).
+this module does not import it, and reads and fills arrays of NumPy (`callback.py`).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Sequence
 
 import numpy as np
-import numpy.typing as npt
 
 from .._errors import DegenerateInputError
 from .._input import exactly_scaled
@@ -23,7 +20,8 @@ from ..location import Locator
 from .status import Status
 from .whole_arithmetic import in_whole_arithmetic
 
-Arrays = tuple[np.ndarray, ...]
+Arrays = Sequence[np.ndarray]
+Room = Callable[[int], tuple[np.ndarray, np.ndarray]]
 # sites of a set from which all threads on one set after another beat one set per thread, where there are
 # fewer sets than threads
 SITES_WORTH_ALL_THREADS = 20_000
@@ -36,93 +34,61 @@ class _TooMany(Exception):
         self.needed = needed
 
 
-class _Rows:
-    """Room for the simplices and neighbours of one set, int32 (2, capacity, d + 1).
+def triangulate_or_raise(given: Arrays, results: Arrays) -> None:
+    """Triangulate sets of sites, and raise a ValueError for one that has no simplices."""
+    _triangulate_all(given, results, raises=True)
 
-    That of a batch; or, where there is one set, what has served to triangulate it, if that is enough.
+
+def triangulate_with_status(given: Arrays, results: Arrays) -> None:
+    """Triangulate sets of sites; the status says which of them have no simplices."""
+    _triangulate_all(given, results, raises=False)
+
+
+def _triangulate_all(given: Arrays, results: Arrays, raises: bool) -> None:
+    """Fill simplices and neighbors, int32 (..., capacity, d + 1), counts and status, int32 (...).
+
+    Given are points (..., n, d).
     """
+    (points,) = given
+    simplices, neighbors, count, status = results
+    *batch, n, d = points.shape
+    capacity = simplices.shape[-2]
+    sets = points.reshape(-1, n, d)
+    rows = [a.reshape(-1, capacity, d + 1) for a in (simplices, neighbors)]
+    counts, bits = count.reshape(-1), status.reshape(-1)
 
-    def __init__(self, capacity: int, d: int, of_batch: np.ndarray | None) -> None:
-        self.shape = (2, capacity, d + 1)
-        self.arrays = of_batch
+    def one(k: int, threads: int | None) -> None:
+        counts[k], bits[k] = _into_rows(sets[k], rows[0][k], rows[1][k], threads)
+        if raises and bits[k]:
+            which = f"set {k} of {len(sets)}: " if batch else ""
+            raise ValueError(which + _problem(sets[k], Status(int(bits[k])), int(counts[k]), capacity))
 
-    def room(self, needed: int, spare: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        if needed > self.shape[1]:
-            raise _TooMany(needed)
-        if self.arrays is None:
-            size = math.prod(self.shape)
-            memory = spare[:size] if len(spare) >= size else np.empty(size, np.int32)
-            self.arrays = memory.reshape(self.shape)
-        return self.arrays[0, :needed], self.arrays[1, :needed]
-
-    @property
-    def finished(self) -> np.ndarray:
-        assert self.arrays is not None
-        return self.arrays
-
-    def pad(self, used: int) -> None:
-        if self.arrays is None:
-            self.arrays = np.empty(self.shape, np.int32)
-        self.arrays[:, used:] = OUTSIDE
+    in_whole_arithmetic(lambda: _for_each(len(sets), n < SITES_WORTH_ALL_THREADS, one))
 
 
-@cache
-def triangulator(capacity: int, raises: bool) -> Callable[[npt.ArrayLike], Arrays]:
-    """The function of points (..., n, d) that triangulates; one object for one pair, as JAX's caches want.
+def locate(given: Arrays, results: Arrays) -> None:
+    """The simplex that contains each point, exactly: int32 (..., q), -1 where there is none.
 
-    It returns simplices and neighbors, int32 (..., capacity, d + 1), counts and status, int32 (...). With
-    ``raises`` a set that has no simplices is a ValueError.
-    """
-
-    def triangulate(points: npt.ArrayLike) -> Arrays:
-        sets = np.asarray(points)
-        *batch, n, d = sets.shape
-        sets = sets.reshape(-1, n, d)
-        both = np.empty((2, len(sets), capacity, d + 1), np.int32) if len(sets) != 1 else None
-        rows = [_Rows(capacity, d, None if both is None else both[:, k]) for k in range(len(sets))]
-        count, status = (np.zeros(len(sets), np.int32) for _ in range(2))
-
-        def one(k: int, threads: int | None) -> None:
-            count[k], status[k] = _into_rows(sets[k], rows[k], threads)
-            if raises and status[k]:
-                which = f"set {k} of {len(sets)}: " if batch else ""
-                raise ValueError(which + _problem(sets[k], Status(int(status[k])), int(count[k]), capacity))
-
-        in_whole_arithmetic(lambda: _for_each(len(sets), n < SITES_WORTH_ALL_THREADS, one))
-        simplices, neighbors = rows[0].finished if both is None else both
-        shape = (*batch, capacity, d + 1)
-        return simplices.reshape(shape), neighbors.reshape(shape), count.reshape(batch), status.reshape(batch)
-
-    return triangulate
-
-
-def locate(
-    points: npt.ArrayLike, simplices: npt.ArrayLike, neighbors: npt.ArrayLike, xi: npt.ArrayLike
-) -> Arrays:
-    """The simplex that contains each point, exactly: one array, int32 (..., q), -1 where there is none.
-
-    Arrays are points (..., n, d), simplices and neighbors (..., capacity, d + 1), and xi (..., q, d). A
+    Given are points (..., n, d), simplices and neighbors (..., capacity, d + 1), and xi (..., q, d). A
     leading dimension is 1 where the array is the same for all.
     """
     announce_compilation()
-    given = [np.asarray(a) for a in (points, simplices, neighbors)]
-    queries = np.asarray(xi)
-    own = np.broadcast_shapes(*(a.shape[:-2] for a in given))
-    batch = np.broadcast_shapes(own, queries.shape[:-2])
-    queries = np.broadcast_to(queries, batch + queries.shape[-2:])
-    out = np.empty(queries.shape[:-1], np.int32)
+    *triangulation, queries = given
+    (out,) = results
+    own = np.broadcast_shapes(*(a.shape[:-2] for a in triangulation))
+    queries = np.broadcast_to(queries, out.shape + queries.shape[-1:])
     sets = list(np.ndindex(own))
 
     def one(k: int, threads: int | None) -> None:
         sites, cells, across = (
-            a[tuple(min(i, size - 1) for i, size in zip(sets[k], a.shape, strict=False))] for a in given
+            a[tuple(min(i, size - 1) for i, size in zip(sets[k], a.shape, strict=False))]
+            for a in triangulation
         )
         # all that ask this set
         asking = tuple(slice(None) if s == 1 else i for i, s in zip(sets[k], own, strict=True))
         out[asking] = _located(sites, cells, across, queries[asking])
 
     in_whole_arithmetic(lambda: _for_each(len(sets), queries.shape[-2] < SITES_WORTH_ALL_THREADS, one))
-    return (out,)
 
 
 def _located(sites: np.ndarray, cells: np.ndarray, across: np.ndarray, queries: np.ndarray) -> np.ndarray:
@@ -132,35 +98,43 @@ def _located(sites: np.ndarray, cells: np.ndarray, across: np.ndarray, queries: 
     return Locator(sites.astype(np.float64), cells[:m], across[:m]).find(queries.astype(np.float64))
 
 
-def _into_rows(sites: np.ndarray, rows: _Rows, threads: int | None) -> tuple[int, Status]:
-    """Write simplices and neighbours of sites (n, d), and -1 beyond; how many there are, and the status."""
+def _into_rows(
+    sites: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, threads: int | None
+) -> tuple[int, Status]:
+    """Write what sites (n, d) have, and -1 beyond; how many simplices there are, and the status."""
     used = count = 0
     status = Status(0)
-    points = sites.astype(np.float64)
+    points = sites.astype(np.float64, copy=False)
+
+    def room(needed: int) -> tuple[np.ndarray, np.ndarray]:
+        if needed > len(simplices):
+            raise _TooMany(needed)
+        return simplices[:needed], neighbors[:needed]
+
     if np.isfinite(points).all():
         try:
-            used = count = _triangulate(exactly_scaled(points), threads, rows)
+            used = count = _triangulate(exactly_scaled(points), threads, room)
         except _TooMany as overflow:
             count, status = overflow.needed, Status.OVERFLOW
         except DegenerateInputError:
             status = Status.DEGENERATE
     else:
         status = Status.NOT_FINITE
-    rows.pad(used)
+    simplices[used:] = neighbors[used:] = OUTSIDE
     return count, status
 
 
-def _triangulate(points: np.ndarray, threads: int | None, rows: _Rows) -> int:
-    """Triangulate scaled points, float64 (n, d), into these rows; how many simplices there are."""
+def _triangulate(points: np.ndarray, threads: int | None, room: Room) -> int:
+    """Triangulate scaled points, float64 (n, d), into that room; how many simplices there are."""
     announce_compilation()
     if points.shape[1] == 3:
         from ..insertion import triangulate
 
-        return len(triangulate(points, threads=threads, room=rows.room).simplices)
+        return len(triangulate(points, threads=threads, room=room).simplices)
     from ..threaded2d.configuration import configured
     from ..threaded2d.driver import triangulate as triangulate_in_plane
 
-    return len(triangulate_in_plane(points, configured(len(points), threads=threads), rows.room).triangles)
+    return len(triangulate_in_plane(points, configured(len(points), threads=threads), room).triangles)
 
 
 def _problem(sites: np.ndarray, status: Status, count: int, capacity: int) -> str:

@@ -11,7 +11,7 @@ from jax.typing import ArrayLike
 
 from .._input import MOST_SITES
 from .callback import call_host
-from .host import triangulator
+from .host import triangulate_or_raise, triangulate_with_status
 from .mesh import Mesh
 
 # simplices per site: uniform sets in space have 6.77, no set of the tests more than 8; in the plane there are
@@ -26,7 +26,7 @@ def delaunay(
 ) -> Mesh:
     """The Delaunay triangulation of points in the plane or in space, as `dt3d.Delaunay` finds it.
 
-    The host triangulates, in one callback for all sets of a batch, the nested ones of `jax.vmap`
+    The host triangulates, in one call for all sets of a batch, the nested ones of `jax.vmap`
     included: one set on each of its threads, or all threads on a set where there are few and they are
     large. On a GPU or TPU the points are copied to the host and the program waits.
 
@@ -84,7 +84,8 @@ def delaunay(
         raise ValueError(msg)
     simplices, number = ((*batch, rows, d + 1), np.int32), (tuple(batch), np.int32)
     shapes = [simplices, simplices, number, number]
-    return Mesh(*call_host(triangulator(rows, on_error == "raise"), shapes, sites))
+    fill = triangulate_or_raise if on_error == "raise" else triangulate_with_status
+    return Mesh(*call_host(fill, shapes, sites))
 
 
 def _check_points(points: jax.Array) -> None:

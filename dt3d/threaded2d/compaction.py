@@ -19,7 +19,7 @@ from .columns import triangle
 CHUNK_BITS = 14  # of a node's number within its chunk
 
 
-Room = Callable[[int, np.ndarray], tuple[np.ndarray, np.ndarray]]
+Room = Callable[[int], tuple[np.ndarray, np.ndarray]]
 
 
 class Triangles(NamedTuple):
@@ -69,9 +69,9 @@ def compact(
 ) -> Triangles:
     """The finite triangles among the nodes that are used, int32 (used, 8).
 
-    ``site`` holds the number of each row of the points, int (n,). ``room(m, spare)`` gives the arrays that
+    ``site`` holds the number of each row of the points, int (n,). ``room(m)`` gives the arrays that
     triangles and neighbours are written into, int32 (m, 3) in C order, and may raise where there is none; by
-    default they are new. There is nothing in ``spare``, which is as in `insertion.triangulate`.
+    default they are new.
     """
     used = len(nodes)
     chunks = -(-used >> CHUNK_BITS)
@@ -80,11 +80,11 @@ def compact(
     run_short_tasks([partial(_number, nodes, k, threads, number, counts) for k in range(threads)])
     before = np.cumsum(counts, dtype=np.int32) - counts
     m = int(counts.sum())
-    triangles, neighbors = (room or _new)(m, np.empty(0, np.int32))
+    triangles, neighbors = (room or _new)(m)
     out = Triangles(triangles, neighbors, np.empty(m, np.int16))
     run_short_tasks([partial(_write, nodes, k, threads, number, before, site, out) for k in range(threads)])
     return out
 
 
-def _new(m: int, spare: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _new(m: int) -> tuple[np.ndarray, np.ndarray]:
     return np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)

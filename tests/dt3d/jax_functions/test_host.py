@@ -38,12 +38,15 @@ from dt3d.jax import host, whole_arithmetic
 for d in (2, 3):
     sets = np.random.default_rng(0).random((3, 50, d))
     sets[2] = 1
-    simplices, neighbors, count, status = host.triangulator(400, False)(sets)
+    results = [np.empty((3, *shape), np.int32) for shape in ((400, d + 1), (400, d + 1), (), ())]
+    simplices, neighbors, count, status = results
+    host.triangulate_with_status([sets], results)
     assert count[0] == len(dt3d.Delaunay(sets[0]).simplices) and status.tolist() == [0, 0, 4]
-    (found,) = host.locate(sets, simplices, neighbors, sets[:, :7] * 0.5 + 0.25)
-    assert found.shape == (3, 7) and (found[:2] >= 0).any() and (found[2] == -1).all()
+    found = np.empty((3, 7), np.int32)
+    host.locate([sets, simplices, neighbors, sets[:, :7] * 0.5 + 0.25], [found])
+    assert (found[:2] >= 0).any() and (found[2] == -1).all()
 try:
-    host.triangulator(4, True)(sets)
+    host.triangulate_or_raise([sets], [a[:, :4] for a in results[:2]] + results[2:])
 except ValueError as error:
     assert "more than capacity=4" in str(error)
 assert not {"jax", "jaxlib"} & set(sys.modules)
