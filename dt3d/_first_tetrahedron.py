@@ -9,6 +9,11 @@ import numpy as np
 from ._input import no_volume
 from .predicates import orient3d
 
+# Of products of two or three differences of coordinates that are 1 at most, each rounded, by their greatest
+# possible size: what is larger has the right sign, by a factor of a hundred. Smaller differences underflow.
+CERTAIN = 1e-12
+LEAST_DIFFERENCE = 2.0**-300
+
 
 def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
     """Four of the distinct sites (n, 3), a among them, in positive orientation; int32 (4,).
@@ -22,20 +27,25 @@ def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
     """
     if len(points) == 1:
         raise no_volume(0, 1)
-    rounded = about_one(points)
-    offset = rounded - rounded[a]
-    distance = np.abs(offset).max(axis=1)
+    offset = about_one(points).T  # rows are coordinates
+    offset = offset - offset[:, a, None]
+    distance = np.abs(offset).max(axis=0)
     distance[a] = -1  # all others may be as near, once they are rounded
     b = int(np.argmax(distance))
-    normals = np.cross(offset, offset[b])
-    for c in np.argsort(-np.abs(normals).max(axis=1), kind="stable"):
-        if not _collinear(points[a], points[b], points[c]):
-            break
-    else:
-        raise no_volume(1, len(points))
-    heights = offset @ normals[c]
+    (x, y, z), (u, v, w) = offset, offset[:, b].tolist()
+    normals = np.stack([y * w - z * v, z * u - x * w, x * v - y * u])
+    length = np.abs(normals).max(axis=0)
+    c = int(np.argmax(length))
+    extent = distance[b]
+    filtered = extent > LEAST_DIFFERENCE
+    if not (filtered and length[c] > CERTAIN * extent**2):
+        c = _not_collinear(points, a, b, np.argsort(-length, kind="stable"))
+    heights = normals[:, c] @ offset
     d = int(np.argmax(np.abs(heights)))
-    sign = orient3d(points[a], points[b], points[c], points[d])
+    if filtered and abs(heights[d]) > CERTAIN * extent**3:
+        sign = -np.sign(heights[d])
+    else:
+        sign = orient3d(points[a], points[b], points[c], points[d])
     if not sign:
         signs = orient3d(points[a], points[b], points[c], points)
         if not signs.any():
@@ -44,6 +54,14 @@ def first_tetrahedron(points: np.ndarray, a: int) -> np.ndarray:
         sign = signs[d]
     first, second = (a, b) if sign > 0 else (b, a)
     return np.array([first, second, c, d], np.int32)
+
+
+def _not_collinear(points: np.ndarray, a: int, b: int, order: np.ndarray) -> int:
+    """The first site in that order that is not on the line through a and b."""
+    for c in order.tolist():
+        if not _collinear(points[a], points[b], points[c]):
+            return int(c)
+    raise no_volume(1, len(points))
 
 
 def about_one(points: np.ndarray) -> np.ndarray:

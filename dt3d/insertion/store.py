@@ -104,10 +104,17 @@ def _longer(array: np.ndarray, used: int, size: int) -> np.ndarray:
 
 def _begin(mesh: Mesh, first: npt.NDArray[np.int32]) -> None:
     """Write a positive tetrahedron into slot 0, and the ghost beyond its k-th facet into slot 1 + k."""
-    corners, across = vertices(mesh)[:5], neighbors(mesh)[:5]
-    corners[:] = first
+    vertices(mesh)[:5] = np.append(first, INFINITE)[_FIRST_CORNERS]
+    neighbors(mesh)[:5] = _FIRST_NEIGHBORS
+    squared_radii(mesh)[:5] = -1, np.inf
+
+
+def _first_five() -> tuple[npt.NDArray[np.int64], npt.NDArray[np.uint32]]:
+    """What the first slots have: which of the four sites, 4 for the infinite one; and which neighbours."""
+    corners = np.tile(np.arange(4), (5, 1))
+    across = np.empty((5, 4), np.uint32)
     for k in range(4):
-        corners[1 + k, k] = INFINITE
+        corners[1 + k, k] = 4
         # beyond the facet orientation is reversed, so two of its vertices change places
         i, j = (k + 1) % 4, (k + 2) % 4
         corners[1 + k, [i, j]] = corners[1 + k, [j, i]]
@@ -117,7 +124,10 @@ def _begin(mesh: Mesh, first: npt.NDArray[np.int32]) -> None:
             facets.setdefault(frozenset(np.delete(corners[t], k).tolist()), []).append((t, k))
     for (t, k), (u, j) in facets.values():
         across[t, k], across[u, j] = 4 * u + j, 4 * t + k
-    squared_radii(mesh)[:5] = -1, np.inf
+    return corners, across
+
+
+_FIRST_CORNERS, _FIRST_NEIGHBORS = _first_five()
 
 
 def _too_many(slots: int) -> str:

@@ -39,8 +39,10 @@ def call_host(
     ----------
     fill : function
         Of a module, and importing none of JAX. It keeps none of the arrays, whose memory is XLA's.
-    results : sequence of shapes and dtypes
-    arrays : arrays of JAX
+    results : sequence of (tuple of int, type)
+        Shapes and dtypes.
+    *arrays : jax.Array
+        Those of the points first.
     """
     shapes = tuple(jax.core.ShapedArray(shape, dtype) for shape, dtype in results)
     filled: list[jax.Array] = _HOST_CALL.bind(*jax.lax.stop_gradient(arrays), fill=fill, shapes=shapes)
