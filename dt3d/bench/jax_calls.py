@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+from statistics import median
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._numba.threads import run_short_tasks
 from .pairs import Pair, in_turn
 
 if TYPE_CHECKING:
@@ -55,9 +58,27 @@ def _batch(sets: int, n: int, rounds: int) -> Pair:
             lambda: [Delaunay(each) for each in points],
             rounds,
         )
-        last = jax.tree.map(lambda a: a[-1], program(given))
-    same = _same(last, Delaunay(points[-1]))
-    return Pair("vmap in space", f"{sets} sets of {n:,} sites", "loop of calls", *seconds, same)
+        gain = f"two threads do {gain_of_two_threads():.2f} times the work of one here"
+    last = jax.tree.map(lambda a: a[-1], program(given))
+    note = f"{_same(last, Delaunay(points[-1]))}; {gain}"
+    return Pair("vmap in space", f"{sets} sets of {n:,} sites", "loop of calls", *seconds, note)
+
+
+def gain_of_two_threads(rounds: int = 5) -> float:
+    """What a second thread gains on this machine at best: with hashes, which use no memory. Up to 2.
+
+    Less where two cores of a virtual machine are one of a real one, or its clock slows down.
+    """
+    data = bytes(1 << 26)  # some fifty milliseconds, so that the system finds both cores
+
+    def hash_it() -> None:
+        hashlib.sha256(data)
+
+    def by_two() -> None:
+        run_short_tasks([hash_it, hash_it])
+
+    two, one = in_turn(by_two, hash_it, rounds)
+    return 2 * median(one) / median(two)
 
 
 def _same(mesh: Mesh, tri: Delaunay) -> str:
