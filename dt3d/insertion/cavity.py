@@ -39,10 +39,13 @@ def search(mesh, start, site, part, scratch, w):
     cavity, rim, outer = scratch.cavity, scratch.rim, scratch.outer
     whole = part.length == part.sites
     room = min(len(cavity), len(outer)) - 4
-    cavity[0] = start
-    mark(mesh, start)
-    size, facets, seen, tested = 1, 0, 0, 0
-    if not whole and not owns_all(mesh, start, part):
+    size, facets, seen, tested = 0, 0, 0, 0
+    # what it does not own it must not mark even for a moment, in which another thread may look at it
+    if whole or owns_all(mesh, start, part):
+        cavity[0] = start
+        mark(mesh, start)
+        size = 1
+    else:
         facets = NOT_OWNED
     while seen < size and facets >= 0:
         t = numba.int64(cavity[seen])

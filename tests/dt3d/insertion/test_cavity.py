@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from dt3d.insertion import cavity
 from dt3d.insertion.cavity import NO_ROOM, NOT_OWNED, conflicts, search, unmark_cavity
-from dt3d.insertion.mesh import neighbors, squared_radii, vertices
-from dt3d.insertion.ownership import Part
+from dt3d.insertion.mesh import mark, neighbors, squared_radii, vertices
+from dt3d.insertion.ownership import Part, owns_all
 from dt3d.insertion.walk import locate
 from dt3d.insertion.worker import scratch_for
 from dt3d.predicates import work_array
@@ -68,3 +69,22 @@ def test_it_stops_at_what_others_own_and_where_there_is_no_room(team):
         assert facets == result
         unmark_cavity(mesh, scratch.cavity, size)
         assert (squared_radii(mesh)[living(team), 1] >= 0).all()
+
+
+def test_what_a_thread_does_not_own_is_not_marked_even_for_a_moment(team, monkeypatch):
+    # another thread that looks at a tetrahedron meanwhile takes it for one of its own cavity
+    mesh, w, marked = team.store.mesh, work_array(POINTS), []
+    monkeypatch.setattr(cavity, "mark", lambda mesh, t: marked.append(int(t)) or mark(mesh, t))
+    stopped = 0
+    for first in range(0, len(POINTS), 5):
+        part = Part(first, 30, len(POINTS))
+        for v in range(len(POINTS) - LEFT_OUT, len(POINTS)):
+            scratch = scratch_for(1000)
+            start = locate(mesh, 0, v, 2.0**-1000, w)
+            size, facets, _ = search.py_func(mesh, start, site(POINTS, v), part, scratch, w)
+            stopped += facets == NOT_OWNED
+            assert all(owns_all(mesh, t, part) for t in marked)
+            assert marked == scratch.cavity[:size].tolist()
+            unmark_cavity(mesh, scratch.cavity, size)
+            marked.clear()
+    assert stopped > 10
