@@ -18,32 +18,32 @@ from numba import types
 from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
-from .workspace import DIGIT_BITS, HALF_DIGIT, SLACK_INDEX
+from .workspace import DIGIT_BITS, HALF_DIGIT, INTEGERS_INDEX
 
 
 @cached_njit
-def orient2d_exact(points, a, b, c, w):
-    """Sign of det[b-a, c-a] of three rows of ``points``."""
+def orient2d_exact(a, b, c, w):
+    """Sign of det[b-a, c-a] of three points, tuples of coordinates."""
     x = _integers(w)
-    n = _enter(points, (int(b), int(c)), int(a), x)
+    n = _enter((b, c), a, x)
     _minor(x, n, 0, 2 * n, 4 * n)
     return _sign(x, 4 * n, 2 * n)
 
 
 @cached_njit
-def orient3d_exact(points, a, b, c, d, w):
-    """Sign of det[b-a, c-a, d-a] of four rows of ``points``."""
+def orient3d_exact(a, b, c, d, w):
+    """Sign of det[b-a, c-a, d-a] of four points, tuples of coordinates."""
     x = _integers(w)
-    n = _enter(points, (int(b), int(c), int(d)), int(a), x)
+    n = _enter((b, c, d), a, x)
     _determinant(x, n, 0, 3 * n, 6 * n, 9 * n)
     return _sign(x, 9 * n, 3 * n)
 
 
 @cached_njit
-def in_circle_exact(points, a, b, c, d, w):
+def in_circle_exact(a, b, c, d, w):
     """Sign of the in-circle determinant: 1 where d is inside the circle of the positive triangle abc."""
     x = _integers(w)
-    n = _enter(points, (int(a), int(b), int(c)), int(d), x)
+    n = _enter((a, b, c), d, x)
     total, lift, minor = 6 * n, 10 * n, 12 * n
     _clear(x, total, 4 * n)
     for k in range(3):
@@ -55,10 +55,10 @@ def in_circle_exact(points, a, b, c, d, w):
 
 
 @cached_njit
-def in_sphere_exact(points, a, b, c, d, e, w):
+def in_sphere_exact(a, b, c, d, e, w):
     """Sign of the in-sphere determinant: 1 where e is inside the sphere of the positive tetrahedron abcd."""
     x = _integers(w)
-    n = _enter(points, (int(a), int(b), int(c), int(d)), int(e), x)
+    n = _enter((a, b, c, d), e, x)
     total, lift, minor = 12 * n, 17 * n, 19 * n
     _clear(x, total, 5 * n)
     for k in range(4):
@@ -72,8 +72,8 @@ def in_sphere_exact(points, a, b, c, d, e, w):
 
 @cached_njit
 def _integers(w):
-    """The workspace behind the slack, for integers."""
-    return w[SLACK_INDEX + 1 :].view(np.int64)
+    """The workspace behind all else, for integers."""
+    return w[INTEGERS_INDEX:].view(np.int64)
 
 
 @intrinsic
@@ -95,10 +95,10 @@ def _parts(x):
 
 
 @cached_njit
-def _reach(points, i, least, greatest):
+def _reach(point, least, greatest):
     """The least and the greatest exponent of a bit that is set, so far and in a point."""
-    for c in range(points.shape[1]):
-        m, e = _parts(points[i, c])
+    for coordinate in point:
+        m, e = _parts(coordinate)
         if m != 0:
             # the lowest bit that is set is a power of two, whose exponent its float has
             least = min(least, e + (_bits(float(m & -m)) >> 52) - 1023)
@@ -107,18 +107,18 @@ def _reach(points, i, least, greatest):
 
 
 @cached_njit
-def _enter(points, rows, origin, x):
+def _enter(points, origin, x):
     """Put the digits of some points minus another at x[0], row after row; returns their length."""
-    least, greatest = _reach(points, origin, 4000, 0)
-    for i in rows:
-        least, greatest = _reach(points, i, least, greatest)
+    least, greatest = _reach(origin, 4000, 0)
+    for point in points:
+        least, greatest = _reach(point, least, greatest)
     n = max(greatest - least, 0) // DIGIT_BITS + 1
     at = 0
-    for i in rows:
-        for c in range(points.shape[1]):
+    for point in points:
+        for c in range(len(origin)):
             _clear(x, at, n)
-            _add_coordinate(x, at, points[i, c], least)
-            _add_coordinate(x, at, -points[origin, c], least)
+            _add_coordinate(x, at, point[c], least)
+            _add_coordinate(x, at, -origin[c], least)
             _carry(x, at, n)
             at += n
     return n

@@ -31,19 +31,18 @@ from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.noinline import call_noinline
-from . import double_double as dd
-from .big_integers import in_circle_exact, orient2d_exact
 from .lexicographic import before
-from .workspace import NEGLIGIBLE, SLACK_INDEX
+from .open_stages import call_in_circle_open, call_orient2d_open
+from .workspace import SLACK_INDEX
 
 ORIENT2D_BOUND = 9.0 * 2.0**-53
 IN_CIRCLE_BOUND = 134.0 * 2.0**-53
-ORIENT2D_BOUND_OF_PAIRS = 21.0 * 2.0**-106
-IN_CIRCLE_BOUND_OF_PAIRS = 430.0 * 2.0**-106
 
-# As in `space`: 2 N^2 or 12 N^4 are less than 2^53, twice 21 N^2 or 430 N^4 less than 2^106.
-ORIENT2D_STEPS = 25, 49
-IN_CIRCLE_STEPS = 12, 23
+
+@cached_njit
+def _at(points, a):
+    """The coordinates of a row."""
+    return points[a, 0], points[a, 1]
 
 
 @cached_njit
@@ -57,41 +56,7 @@ def orient2d(points, a, b, c, w):
     # one branch that is nearly always taken, and no other on the sign, which nobody can predict
     if abs(det) > bound:
         return 1 if det > 0.0 else -1
-    return _call_orient2d_open(points, (a, b, c), det, (x, y), w)
-
-
-@cached_njit
-def _orient2d_open(points, rows, det, extents, w):
-    """Sign of the determinant that the filter leaves open; its rounded value and X, Y are given."""
-    x, y = extents
-    if x == 0.0 or y == 0.0:
-        return 0
-    a, b, c = rows
-    p, q = _difference(points, b, a), _difference(points, c, a)
-    m = max(x, y)
-    discrete = w[SLACK_INDEX] < NEGLIGIBLE * m * m
-    if discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[0]):
-        return (det > 0.0) - (det < 0.0)
-    value = dd.minor(p, q)[0]
-    bound = ORIENT2D_BOUND_OF_PAIRS * (x * y) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[1]):
-        return 0
-    return orient2d_exact(points, a, b, c, w)
-
-
-@intrinsic
-def _call_orient2d_open(typingctx, points, rows, det, extents, w):
-    return call_noinline(typingctx, _orient2d_open, (points, rows, det, extents, w))
-
-
-@cached_njit
-def _difference(points, p, q):
-    """Point p minus point q, as two pairs; exact."""
-    return dd.two_sum(points[p, 0], -points[q, 0]), dd.two_sum(points[p, 1], -points[q, 1])
+    return call_orient2d_open(w, (_at(points, a), _at(points, b), _at(points, c)), det, (x, y), w)
 
 
 @cached_njit
@@ -109,34 +74,8 @@ def in_circle(points, a, b, c, d, w):
     bound = IN_CIRCLE_BOUND * (x * y * (m * m)) + w[SLACK_INDEX]
     if abs(det) > bound:
         return 1 if det > 0.0 else -1
-    return _call_in_circle_open(points, (a, b, c, d), det, (x, y), w)
-
-
-@cached_njit
-def _in_circle_open(points, rows, det, extents, w):
-    """Sign of the determinant that the filter leaves open; its rounded value and X, Y are given."""
-    x, y = extents
-    a, b, c, d = rows
-    p, q, r = _difference(points, a, d), _difference(points, b, d), _difference(points, c, d)
-    m = max(x, y)
-    discrete = w[SLACK_INDEX] < NEGLIGIBLE * (m * m) * (m * m)
-    if discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[0]):
-        return (det > 0.0) - (det < 0.0)
-    total = dd.add(dd.multiply(dd.square(p), dd.minor(q, r)), dd.multiply(dd.square(q), dd.minor(r, p)))
-    value = dd.add(total, dd.multiply(dd.square(r), dd.minor(p, q)))[0]
-    bound = IN_CIRCLE_BOUND_OF_PAIRS * (x * y * (m * m)) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[1]):
-        return 0
-    return in_circle_exact(points, a, b, c, d, w)
-
-
-@intrinsic
-def _call_in_circle_open(typingctx, points, rows, det, extents, w):
-    return call_noinline(typingctx, _in_circle_open, (points, rows, det, extents, w))
+    rows = _at(points, a), _at(points, b), _at(points, c), _at(points, d)
+    return call_in_circle_open(w, rows, det, (x, y), w)
 
 
 @cached_njit(forceinline=True)

@@ -44,21 +44,18 @@ Contraction to fused multiply-add leaves out roundings and adds none, so all hol
 from __future__ import annotations
 
 from .._numba.kernel_cache import cached_njit
-from . import double_double as dd
-from .big_integers import in_sphere_exact, orient3d_exact
 from .lexicographic import before
-from .workspace import NEGLIGIBLE, SLACK_INDEX
+from .open_stages import call_in_sphere_open, call_orient3d_open
+from .workspace import SLACK_INDEX
 
 ORIENT3D_BOUND = 49.0 * 2.0**-53
 IN_SPHERE_BOUND = 1240.0 * 2.0**-53
-ORIENT3D_BOUND_OF_PAIRS = 160.0 * 2.0**-106
-IN_SPHERE_BOUND_OF_PAIRS = 4100.0 * 2.0**-106
 
-# Steps of a lattice that the greatest difference may have, N = 2^k: for a determinant below 2^53 steps, and
-# for one that is zero or beyond twice the bound. 6 N^3 or 72 N^5 are less than 2^53; 6 * 27 N^3 and 72 * 57
-# N^5 are less than 2^105.
-ORIENT3D_STEPS = 16, 32
-IN_SPHERE_STEPS = 9, 18
+
+@cached_njit
+def _at(points, a):
+    """The coordinates of a row."""
+    return points[a, 0], points[a, 1], points[a, 2]
 
 
 @cached_njit
@@ -75,43 +72,8 @@ def orient3d(points, a, b, c, d, w):
         return 1
     if det < -bound:
         return -1
-    return _orient3d_open(points, (a, b, c, d), det, (x, y, z), w)
-
-
-@cached_njit
-def _orient3d_open(points, rows, det, extents, w):
-    """Sign of the determinant that the filter leaves open; its rounded value and X, Y, Z are given."""
-    x, y, z = extents
-    if x == 0.0 or y == 0.0 or z == 0.0:
-        return 0
-    a, b, c, d = rows
-    p, q, r = _difference(points, b, a), _difference(points, c, a), _difference(points, d, a)
-    m = max(x, y, z)
-    discrete = w[SLACK_INDEX] < NEGLIGIBLE * m * m * m
-    if discrete and dd.on_lattice((p, q, r), m, ORIENT3D_STEPS[0]):
-        return (det > 0.0) - (det < 0.0)
-    value = dd.add(
-        dd.add(dd.multiply(dd.minor(p, q), r[2]), dd.multiply(dd.minor(q, r), p[2])),
-        dd.multiply(dd.minor(r, p), q[2]),
-    )[0]
-    bound = ORIENT3D_BOUND_OF_PAIRS * (x * y * z) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q, r), m, ORIENT3D_STEPS[1]):
-        return 0
-    return orient3d_exact(points, a, b, c, d, w)
-
-
-@cached_njit
-def _difference(points, p, q):
-    """Point p minus point q, as three pairs; exact."""
-    return (
-        dd.two_sum(points[p, 0], -points[q, 0]),
-        dd.two_sum(points[p, 1], -points[q, 1]),
-        dd.two_sum(points[p, 2], -points[q, 2]),
-    )
+    rows = _at(points, a), _at(points, b), _at(points, c), _at(points, d)
+    return call_orient3d_open(w, rows, det, (x, y, z), w)
 
 
 @cached_njit
@@ -142,56 +104,8 @@ def in_sphere(points, a, b, c, d, e, w):
         return 1
     if det < -bound:
         return -1
-    return _in_sphere_open(points, (a, b, c, d, e), det, (x, y, z), w)
-
-
-@cached_njit
-def _in_sphere_open(points, rows, det, extents, w):
-    """Sign of the determinant that the filter leaves open; its rounded value and X, Y, Z are given."""
-    x, y, z = extents
-    a, b, c, d, e = rows
-    differences = (
-        _difference(points, a, e), _difference(points, b, e),
-        _difference(points, c, e), _difference(points, d, e),
-    )  # fmt: skip
-    m = max(x, y, z)
-    discrete = w[SLACK_INDEX] < NEGLIGIBLE * (m * m) * (m * m) * m
-    if discrete and dd.on_lattice(differences, m, IN_SPHERE_STEPS[0]):
-        return (det > 0.0) - (det < 0.0)
-    value = _in_sphere_of_pairs(differences)[0]
-    bound = IN_SPHERE_BOUND_OF_PAIRS * (x * y * z * (m * m)) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice(differences, m, IN_SPHERE_STEPS[1]):
-        return 0
-    return in_sphere_exact(points, a, b, c, d, e, w)
-
-
-@cached_njit
-def _in_sphere_of_pairs(differences):
-    a, b, c, d = differences
-    ab, bc, cd = dd.minor(a, b), dd.minor(b, c), dd.minor(c, d)
-    da, ac, bd = dd.minor(d, a), dd.minor(a, c), dd.minor(b, d)
-    abc = _sum3(dd.multiply(bc, a[2]), dd.multiply(ac, _minus(b[2])), dd.multiply(ab, c[2]))
-    bcd = _sum3(dd.multiply(cd, b[2]), dd.multiply(bd, _minus(c[2])), dd.multiply(bc, d[2]))
-    cda = _sum3(dd.multiply(da, c[2]), dd.multiply(ac, d[2]), dd.multiply(cd, a[2]))
-    dab = _sum3(dd.multiply(ab, d[2]), dd.multiply(bd, a[2]), dd.multiply(da, b[2]))
-    return dd.add(
-        dd.subtract(dd.multiply(dd.square(a), bcd), dd.multiply(dd.square(b), cda)),
-        dd.subtract(dd.multiply(dd.square(c), dab), dd.multiply(dd.square(d), abc)),
-    )
-
-
-@cached_njit
-def _sum3(a, b, c):
-    return dd.add(dd.add(a, b), c)
-
-
-@cached_njit
-def _minus(a):
-    return -a[0], -a[1]
+    rows = _at(points, a), _at(points, b), _at(points, c), _at(points, d), _at(points, e)
+    return call_in_sphere_open(w, rows, det, (x, y, z), w)
 
 
 # Ties. Site p is lifted to height |p|^2 + e_p, with infinitesimals e_p in the lexicographic order of the

@@ -7,7 +7,8 @@ coordinates of at most 1 nothing overflows, and what underflows is off by 2^-107
 and 2^-1000 G^5 for coordinates of at most G > 1. Beyond 2^200, where G^5 could overflow, the slack is
 infinite: nothing is then decided in floating point.
 
-Behind it is room for the integers of the exact stage.
+Then come the addresses of the stages behind the filters (`open_stages`), and behind them is room for the
+integers of the exact stage.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ import numpy as np
 import numpy.typing as npt
 
 SLACK_INDEX = 0
+ORIENT2D_OPEN, IN_CIRCLE_OPEN, ORIENT3D_OPEN, IN_SPHERE_OPEN = 1, 2, 3, 4  # where addresses are
+IN_PLANE, IN_SPACE = (ORIENT2D_OPEN, IN_CIRCLE_OPEN), (ORIENT3D_OPEN, IN_SPHERE_OPEN)
+INTEGERS_INDEX = 8
 # The slack is nothing beside a step of a lattice if it is less than this part of M^3 or M^5, with M the
 # greatest difference of coordinates.
 NEGLIGIBLE = 2.0**-110
@@ -26,8 +30,17 @@ WORKSPACE_SIZE = 2048  # an in-sphere determinant of 78 digits a coordinate take
 
 
 def work_array(points: np.ndarray) -> np.ndarray:
-    """Return what one thread's predicates of rows of ``points`` work in, float64 (WORKSPACE_SIZE,)."""
+    """Return what one thread's predicates of rows of ``points`` work in, float64 (WORKSPACE_SIZE,).
+
+    Those of their dimension, 2 or 3: the stages of others are not compiled.
+    """
+    from .open_stages import address
+
     w = np.empty(WORKSPACE_SIZE)
+    stages = w.view(np.int64)
+    stages[SLACK_INDEX + 1 : INTEGERS_INDEX] = 0
+    for place in IN_PLANE if points.shape[-1] == 2 else IN_SPACE:
+        stages[place] = address(place)
     greatest = float(np.abs(points).max(initial=1))
     w[SLACK_INDEX] = 2.0**-1000 * greatest**5 if greatest < 2.0**200 else np.inf
     return w

@@ -16,5 +16,6 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 def test_the_exact_stage_alone(points):
     for predicate, k in POINTS.items():
         case = np.ascontiguousarray(points[:k, : DIMENSION[predicate]])
-        got = getattr(big_integers, f"{predicate}_exact")(case, *range(k), work_array(case))
+        corners = [tuple(corner) for corner in case.tolist()]
+        got = getattr(big_integers, f"{predicate}_exact")(*corners, work_array(case))
         assert got == sign(predicate, case)
