@@ -18,7 +18,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
-from .workspace import DIGIT_BITS, HALF_DIGIT, INTEGERS_INDEX
+from .layout import DIGIT_BITS, HALF_DIGIT, INTEGERS_INDEX
 
 
 @cached_njit

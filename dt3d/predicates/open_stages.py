@@ -16,7 +16,7 @@ from .._numba.by_address import address_of, call_at
 from .._numba.kernel_cache import cached_njit
 from . import double_double as dd
 from .big_integers import in_circle_exact, in_sphere_exact, orient2d_exact, orient3d_exact
-from .workspace import (
+from .layout import (
     IN_CIRCLE_OPEN,
     IN_SPHERE_OPEN,
     NEGLIGIBLE,

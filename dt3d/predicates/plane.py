@@ -31,9 +31,9 @@ from numba.extending import intrinsic
 
 from .._numba.kernel_cache import cached_njit
 from .._numba.noinline import call_noinline
+from .layout import SLACK_INDEX
 from .lexicographic import before
 from .open_stages import call_in_circle_open, call_orient2d_open
-from .workspace import SLACK_INDEX
 
 ORIENT2D_BOUND = 9.0 * 2.0**-53
 IN_CIRCLE_BOUND = 134.0 * 2.0**-53

@@ -44,9 +44,9 @@ Contraction to fused multiply-add leaves out roundings and adds none, so all hol
 from __future__ import annotations
 
 from .._numba.kernel_cache import cached_njit
+from .layout import SLACK_INDEX
 from .lexicographic import before
 from .open_stages import call_in_sphere_open, call_orient3d_open
-from .workspace import SLACK_INDEX
 
 ORIENT3D_BOUND = 49.0 * 2.0**-53
 IN_SPHERE_BOUND = 1240.0 * 2.0**-53

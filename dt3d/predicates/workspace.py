@@ -16,17 +16,18 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-SLACK_INDEX = 0
-ORIENT2D_OPEN, IN_CIRCLE_OPEN, ORIENT3D_OPEN, IN_SPHERE_OPEN = 1, 2, 3, 4  # where addresses are
-IN_PLANE, IN_SPACE = (ORIENT2D_OPEN, IN_CIRCLE_OPEN), (ORIENT3D_OPEN, IN_SPHERE_OPEN)
-INTEGERS_INDEX = 8
-# The slack is nothing beside a step of a lattice if it is less than this part of M^3 or M^5, with M the
-# greatest difference of coordinates.
-NEGLIGIBLE = 2.0**-110
-DIGIT_BITS = 27  # of exact integers, here and in JAX
-HALF_DIGIT = 1 << (DIGIT_BITS - 1)
+from .layout import (
+    IN_CIRCLE_OPEN,
+    IN_SPHERE_OPEN,
+    INTEGERS_INDEX,
+    ORIENT2D_OPEN,
+    ORIENT3D_OPEN,
+    SLACK_INDEX,
+    WORKSPACE_SIZE,
+)
+
 FACTORS = 1000  # exponents of powers of two that are doubles, and so are their reciprocals
-WORKSPACE_SIZE = 2048  # an in-sphere determinant of 78 digits a coordinate takes 24 * 78 integers
+IN_PLANE, IN_SPACE = (ORIENT2D_OPEN, IN_CIRCLE_OPEN), (ORIENT3D_OPEN, IN_SPHERE_OPEN)
 
 
 def work_array(points: np.ndarray) -> np.ndarray:

@@ -11,9 +11,9 @@ from jax import Array
 
 import scanvec as sv
 
+from ...predicates.layout import DIGIT_BITS
 from ...predicates.traced import one_case
 from ...predicates.traced.digits import limbs_of
-from ...predicates.workspace import DIGIT_BITS
 from ..buckets import Buckets
 from ..faces import Face
 

@@ -21,7 +21,7 @@ import numpy as np
 import numpy.typing as npt
 from jax import dtypes, lax
 
-from ..workspace import DIGIT_BITS, HALF_DIGIT
+from ..layout import DIGIT_BITS, HALF_DIGIT
 
 # Lengths of coordinates that are compiled for. The last holds every finite float64: its 27 * 78 - 1 bits are
 # more than the 2098 between 2^-1074 and 2^1024.

@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 
 from dt3d.predicates import scaled, work_array
-from dt3d.predicates.workspace import SLACK_INDEX
+from dt3d.predicates.layout import SLACK_INDEX
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 

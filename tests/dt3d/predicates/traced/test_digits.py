@@ -8,8 +8,8 @@ import jax
 import numpy as np
 from hypothesis import given
 
+from dt3d.predicates.layout import DIGIT_BITS, HALF_DIGIT
 from dt3d.predicates.traced import digits
-from dt3d.predicates.workspace import DIGIT_BITS, HALF_DIGIT
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
