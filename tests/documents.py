@@ -18,6 +18,11 @@ def programs(text: str) -> list[str]:
     return re.findall(r"```python\n(.*?)```", text, re.DOTALL)
 
 
+def sessions(text: str) -> str:
+    """What is typed at a prompt on a page, and what comes back, as doctest has it."""
+    return "\n".join(re.findall(r"```pycon\n(.*?)```", text, re.DOTALL))
+
+
 def run(programs: list[str], **names: object) -> dict[str, object]:
     """Run programs one after the other in one namespace, which may have names at first; it is returned."""
     assert programs

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import doctest
 import re
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 import dt3d
 import scanvec as sv
 
-from .documents import ROOT, links, page, programs, rows, run
+from .documents import ROOT, links, page, programs, rows, run, sessions
 
 PAGES = sorted(
     path.relative_to(ROOT).as_posix()
@@ -24,14 +25,21 @@ PAPERS = ("Teng et al. 1993", "Kohout et al. 2004")
 FEWER = [program.replace("random((2000, 3))", "random((150, 3))") for program in programs(page("README.md"))]
 
 
+def test_what_is_typed_in_the_readme():
+    found = doctest.DocTestParser().get_doctest(sessions(page("README.md")), {}, "README.md", None, 0)
+    assert len(found.examples) > 5
+    assert doctest.DocTestRunner().run(found).failed == 0
+
+
 def test_the_programs_of_the_readme(tmp_path, monkeypatch):
-    """Those that are done in seconds; `test_all_programs_of_the_readme` has the others, too."""
+    """Each alone; those that are done in seconds. `test_all_programs_of_the_readme` has the others, too."""
     monkeypatch.chdir(tmp_path)
     quick = [program for program in FEWER if "machine=" not in program]
     assert len(quick) == len(FEWER) - 2
-    names = run(quick, sv=sv, cm5=sv.Simulated(processors=32))
-    assert len(names["points"]) == 150
+    found = [run([program]) for program in quick]
+    assert len(found[0]["points"]) == 150
     # what the comments beside the lines say
+    (names,) = (names for names in found if "copies" in names)
     v = names["v"]
     assert sv.scan(v, sv.ADD).to_numpy().tolist() == [0, 5, 6, 9, 13, 16, 25, 27]
     assert sv.pack(v, v > 3).to_numpy().tolist() == [5, 4, 9, 6]
@@ -42,7 +50,8 @@ def test_the_programs_of_the_readme(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_all_programs_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    names = run(FEWER)
+    found = [run([program]) for program in FEWER]
+    names = found[-1]
     ledger = names["cm5"].ledger
     assert len((tmp_path / "steps.csv").read_text().splitlines()) == ledger.steps + 1
     assert names["cm5"].ledgers[256].seconds < ledger.seconds

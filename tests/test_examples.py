@@ -9,6 +9,12 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 
 # The words after each example's name, and the files that it then writes into the current folder.
 RUNS = {
+    "alpha_surface.py": [(["--points", "400", "--write", "surface.png"], ["surface.png"])],
+    "atom_volumes.py": [(["--cells", "4", "--write", "atoms.png"], ["atoms.png"])],
+    "even_triangles.py": [(["--sites", "30", "--steps", "3", "--write", "even.png"], ["even.png"])],
+    "from_scipy.py": [(["300"], [])],
+    "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
+    "scattered_heights.py": [(["--kept", "200", "--step", "8", "--write", "map.png"], ["map.png"])],
     "scan_primitives.py": [([], [])],
     "write_your_own_algorithm.py": [([], [])],
     "cm5_scaling.py": [(["--sites", "60", "--folder", "."], ["cm5_scaling.png"])],
