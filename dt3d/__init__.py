@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         InternalError,
         QuadraticSearchWarning,
     )
+    from ._references import references
     from ._stats import InsertionStatistics, Progress, Statistics
     from ._topology import OUTSIDE
     from .delaunay import Delaunay
@@ -43,6 +44,7 @@ __all__ = [
     "Subset",
     "Voronoi",
     "__version__",
+    "references",
 ]
 
 # modules that are loaded as attributes: ``import dt3d; dt3d.interpolate``
@@ -53,6 +55,7 @@ _MODULES = {
     "Delaunay": "delaunay",
     "Subset": "subset",
     "Voronoi": "voronoi",
+    "references": "_references",
     **dict.fromkeys(["InsertionStatistics", "Progress", "Statistics"], "_stats"),
     **dict.fromkeys([name for name in __all__ if name.endswith(("Error", "Warning"))], "_errors"),
 }
