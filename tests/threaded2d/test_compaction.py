@@ -44,7 +44,7 @@ def test_room_for_the_result():
     want = compact(nodes, site)
     m = len(want.triangles)
     own = np.full((2, m + 5, 3), 7, np.int32)
-    out = compact(nodes, site, room=lambda needed, spare: (own[0, :needed], own[1, :needed]))
+    out = compact(nodes, site, room=lambda needed: (own[0, :needed], own[1, :needed]))
     np.testing.assert_array_equal(own[:, :m], [want.triangles, want.neighbors])
     assert (own[:, m:] == 7).all()
     assert np.shares_memory(out.triangles, own)
