@@ -42,7 +42,7 @@ def call_host(
     results : sequence of (tuple of int, type)
         Shapes and dtypes.
     *arrays : jax.Array
-        Those of the points first.
+        What is given; all of them batched where one is.
     """
     shapes = tuple(jax.core.ShapedArray(shape, dtype) for shape, dtype in results)
     filled: list[jax.Array] = _HOST_CALL.bind(*jax.lax.stop_gradient(arrays), fill=fill, shapes=shapes)

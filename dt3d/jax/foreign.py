@@ -94,8 +94,10 @@ class _Frame(Structure):
 
 
 _HANDLER = ctypes.CFUNCTYPE(c_void_p, POINTER(_Frame))
-_memory_at = ctypes.pythonapi.PyMemoryView_FromMemory
-_memory_at.restype, _memory_at.argtypes = ctypes.py_object, (c_void_p, ctypes.c_ssize_t, c_int)
+# a function of our own, since what is declared of that of ctypes is declared for all
+_memory_at = ctypes.PYFUNCTYPE(ctypes.py_object, c_void_p, ctypes.c_ssize_t, c_int)(
+    ("PyMemoryView_FromMemory", ctypes.pythonapi)
+)
 _handlers: list[Any] = []  # which XLA may call as long as the process runs
 
 
