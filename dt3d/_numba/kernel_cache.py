@@ -15,7 +15,7 @@ import os
 import pickle
 import time
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -88,6 +88,14 @@ def source_cache() -> type | None:
     return SourceCache
 
 
+def is_kept(kernel: Any, kinds: Sequence[object]) -> bool:
+    """Whether there is a record on disk of a kernel for arguments of these types; it is not read."""
+    records = getattr(kernel._cache, "_cache_file", None)
+    if not isinstance(records, Records):
+        return False
+    return records.has(kernel._cache._index_key(tuple(kinds), kernel.targetctx.codegen()))
+
+
 class Records:
     """Records in the files of one function: each says what it is, and is checked when it is read."""
 
@@ -105,6 +113,10 @@ class Records:
         if (made_for, made_from, checksum) != (key, self.stamp, zlib.crc32(data)):
             return None
         return pickle.loads(data)
+
+    def has(self, key: object) -> bool:
+        """Return whether something was saved under a key."""
+        return key in self.file._load_index()
 
     def save(self, key: object, data: object) -> None:
         """Save under a key; raises OSError."""

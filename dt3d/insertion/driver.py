@@ -18,6 +18,7 @@ from ..ordering.along_curve import along_curve_in_space, bounds, gather
 from ..ordering.brio import insertion_rounds
 from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
+from .first_call import insert_beside
 from .mesh import FREE, MOST_SLOTS, aligned, vertices
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
@@ -77,6 +78,7 @@ def triangulate(
         BYTES_PER_SITE + BYTES_PER_SLOT * slots for slots in (LEAST_SLOTS_PER_SITE, SLOTS_PER_SITE)
     )
     require(f"the triangulation of {len(sites)} sites", least * len(sites), reserved * len(sites))
+    wait_for_insert = insert_beside()
     seconds = {}
     begun = time.perf_counter()
     original, rows, duplicates = _in_order(sites, threads)
@@ -90,6 +92,7 @@ def triangulate(
     slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
     store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
     tell = _told(report, n)
+    wait_for_insert()
     team = Team(threads, store, bounds(sites), tell)
     for begin, end in zip([0, *ends], ends, strict=False):
         team.insert_round(todo[begin:end])

@@ -1,0 +1,35 @@
+"""The first call of a new machine: another process compiles `insert`, half of what there is to compile."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import numba
+import numpy as np
+
+from .._numba.beside import compiled_beside
+from .insert import insert
+from .store import Store
+from .worker import Scale, scratch_for
+
+
+@cache
+def _kinds() -> tuple[numba.types.Type, ...]:
+    """The types of the arguments of `insert`."""
+    store = Store(np.zeros(16), np.arange(4, dtype=np.int32), slots=5, block=1)
+    todo, state, work = np.empty(0, np.uint32), np.empty(0, np.int64), np.empty(0)
+    arguments = store.mesh, todo, state, scratch_for(1), Scale(0.0, 0.0), work
+    return tuple(map(numba.typeof, arguments))
+
+
+def compile_insert() -> None:
+    """Compile it, or load it from disk."""
+    insert.compile(_kinds())
+
+
+def insert_beside() -> Callable[[], None]:
+    """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it."""
+    if insert.overloads:
+        return lambda: None
+    return compiled_beside(insert, _kinds(), __name__, compile_insert.__name__)
