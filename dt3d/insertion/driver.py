@@ -92,8 +92,8 @@ def triangulate(
     slots = min(SLOTS_PER_SITE * n + 64 + threads * block, MOST_SLOTS)
     store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
     tell = _told(report, n)
-    wait_for_insert()
     team = Team(threads, store, bounds(sites), tell)
+    wait_for_insert()
     for begin, end in zip([0, *ends], ends, strict=False):
         team.insert_round(todo[begin:end])
     tell(n, team.slots)
