@@ -48,7 +48,7 @@ __all__ = [
 ]
 
 # modules that are loaded as attributes: ``import dt3d; dt3d.interpolate``
-_SUBMODULES = ("files", "interpolate", "jax", "predicates", "threaded2d", "verification")
+_SUBMODULES = ("files", "interpolate", "jax", "predicates", "pyvista", "threaded2d", "verification")
 
 _MODULES = {
     "OUTSIDE": "_topology",

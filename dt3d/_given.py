@@ -21,7 +21,7 @@ def as_numbers(given: object, name: str, dimension: int | None) -> tuple[np.ndar
     given : object
         An array, what NumPy makes an array of, a masked array with nothing masked, a structured array with
         fields x, y and z, a table (of pandas, for example), or an object with an attribute ``points``, as
-        a mesh of PyVista has.
+        datasets of PyVista and meshes of meshio have.
     name : str
         What the caller calls it.
     dimension : 2, 3 or None
@@ -55,7 +55,20 @@ def as_numbers(given: object, name: str, dimension: int | None) -> tuple[np.ndar
     points: Any = getattr(given, "points", 0)
     if np.ndim(points) == 2:
         return as_numbers(points, f"{name}.points", dimension)
+    _refuse_vtk(given, name)
     return _made(given, name), f"np.asarray({name})"
+
+
+def _refuse_vtk(given: object, name: str) -> None:
+    """Say of what VTK and PyVista have beside datasets with an array of points how to come by these."""
+    kind = type(given).__name__
+    if hasattr(given, "n_blocks") and hasattr(given, "combine"):
+        blocks: Any = given.n_blocks
+        msg = f"{name} must be one array or dataset, got a {kind} of {blocks} datasets; pass {name}.combine()"
+        raise ValueError(msg)
+    if hasattr(given, "GetNumberOfPoints") and hasattr(given, "GetPoints"):
+        msg = f"{name} must be an array or a dataset of PyVista, got a {kind}; pass pyvista.wrap({name})"
+        raise ValueError(msg)
 
 
 def _made(given: object, name: str) -> np.ndarray:

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._cell_data import cell_data
+from ._mesh_data import carry
 from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
 from ._optional import optional
 from ._output import save_figure
@@ -28,7 +30,7 @@ def write_plane_mesh(tri: Triangulation, path: str | Path) -> None:
 
     =============== ==========================================================================================
     .npz            arrays points (n, 2), triangles, neighbors and thread
-    .vtu .vtk .vtp  the triangles, with cell data "thread" (needs PyVista)
+    .vtu .vtk .vtp  the triangles, with the cell data of `cell_data` (needs PyVista)
     .msh .mesh      the triangles for Gmsh and Medit (needs meshio)
     .ply .stl .obj  the triangles as a surface; .stl in single precision (.ply needs meshio)
     =============== ==========================================================================================
@@ -77,7 +79,7 @@ def _write_npz(tri: Triangulation, path: Path) -> None:
 def _grid(tri: Triangulation) -> pyvista.UnstructuredGrid:
     pv = optional("pyvista")
     grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
-    grid.cell_data["thread"] = tri.thread
+    carry(grid, cell_data(tri))
     return grid
 
 

@@ -29,7 +29,7 @@ def write_mesh(tri: Delaunay | Subset, path: str | Path) -> None:
     """Write a triangulation.
 
     ============ =============================================================================================
-    .vtu .vtk    the tetrahedra, with cell data "iteration" and "volume" (needs PyVista)
+    .vtu .vtk    the tetrahedra, with the cell data of ``to_pyvista`` (needs PyVista)
     .npz         arrays points, simplices, neighbors, iteration and volume
     .msh .mesh   the tetrahedra for Gmsh and Medit; Medit's reference is the iteration (needs meshio)
     .ply .stl    the surface of the convex hull; .stl in single precision (.ply needs meshio)

@@ -13,6 +13,7 @@ from . import _topology
 from ._results import Names, Result, check_array, check_complex, check_range, frozen
 
 if TYPE_CHECKING:
+    import meshio
     import pyvista
     from matplotlib.axes import Axes
 
@@ -66,28 +67,113 @@ class Triangulation(Result):
             self._only_elsewhere("triangles")
         return self.simplices
 
-    def to_pyvista(self) -> pyvista.UnstructuredGrid | pyvista.PolyData:
-        """The simplices as a PyVista mesh.
+    def to_pyvista(
+        self, source: pyvista.DataSet | None = None
+    ) -> pyvista.UnstructuredGrid | pyvista.PolyData:
+        """The simplices as a PyVista mesh: point i is site i, cell j is simplex j.
+
+        ================ =====================================================================================
+        cell data        what it is
+        ================ =====================================================================================
+        "volume"         of each tetrahedron; in the plane "area", of each triangle; float64
+        "longest_edge"   its length, float64
+        "circumradius"   the radius of the circumscribed sphere, in the plane circle; float64
+        "depth"          how many facets lie between the simplex and the hull, 0 for those at it; of a part of
+                         a triangulation, its boundary; int32
+        "iteration"      in space: the iteration that found it, int32; not where all are 1, as by insertion
+        "thread"         in the plane: the thread that made it, int16; not where there was one
+        ================ =====================================================================================
+
+        In the plane, point data "inserted_by" are threads, too. Active is what varies and is seen on the
+        hull, "longest_edge" in general; or the active point data of the source, if they vary.
+
+        Parameters
+        ----------
+        source : pyvista.DataSet, optional
+            The dataset whose points were triangulated. The mesh gets its point data, in the plane also the
+            third coordinates: a terrain.
 
         Returns
         -------
         pyvista.UnstructuredGrid
-            In space: tetrahedra, with cell data "iteration" and "volume".
+            In space: tetrahedra.
         pyvista.PolyData
-            In the plane: triangles, with cell data "thread" and point data "inserted_by".
+            In the plane: triangles.
 
         Raises
         ------
         ImportError
             If PyVista is not installed; the message says how to install it.
+        ValueError
+            If the source is no dataset of PyVista, or has another number of points.
+
+        Examples
+        --------
+        >>> import numpy as np, pyvista as pv, dt3d
+        >>> cloud = pv.PolyData(np.random.default_rng(0).random((50, 3)))
+        >>> cloud["height"] = cloud.points[:, 2]
+        >>> grid = dt3d.Delaunay(cloud).to_pyvista(cloud)
+        >>> grid.point_data.keys(), grid.cell_data.keys()
+        (['height'], ['volume', 'longest_edge', 'circumradius', 'depth'])
         """
         if self.ndim == 2:
             from .threaded2d.picture import to_pyvista as surface
 
-            return surface(self)
+            return surface(self, source=source)
         from ._mesh import to_pyvista
 
-        return to_pyvista(self)
+        return to_pyvista(self, source)
+
+    def hull_to_pyvista(self, source: pyvista.DataSet | None = None) -> pyvista.PolyData:
+        """The surface of the convex hull, of its own points; of a part of a triangulation, of the part.
+
+        Triangles are counter-clockwise from outside. In the plane it is lines, with the triangles on their
+        left. Point data "site" (int32) has the numbers of the points.
+
+        Parameters
+        ----------
+        source : pyvista.DataSet, optional
+            As in `to_pyvista`: the surface gets the point data of its sites.
+
+        Raises
+        ------
+        ImportError
+            If PyVista is not installed; the message says how to install it.
+        ValueError
+            If the source is no dataset of PyVista, or has another number of points.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        >>> hull = dt3d.Delaunay(cube + [[0.5, 0.5, 0.5]]).hull_to_pyvista()
+        >>> hull.n_points, hull.n_cells, float(round(hull.volume, 12))
+        (8, 12, 1.0)
+        """
+        from ._mesh import hull_to_pyvista
+
+        return hull_to_pyvista(self, source)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """The simplices as a mesh of meshio, with the cell data of `to_pyvista`; in the plane z is 0.
+
+        `meshio.Mesh.write` writes formats that `dt3d.files.write_mesh` does not have, as XDMF and Abaqus.
+
+        Raises
+        ------
+        ImportError
+            If meshio is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> mesh = dt3d.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]).to_meshio()
+        >>> mesh.cells_dict["tetra"].shape, sorted(mesh.cell_data)
+        ((1, 4), ['circumradius', 'depth', 'longest_edge', 'volume'])
+        """
+        from ._mesh import to_meshio
+
+        return to_meshio(self)
 
     def plot(self, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None) -> Axes:
         """Draw the triangles of a triangulation in the plane, coloured by the threads that made them.

@@ -62,7 +62,8 @@ class Delaunay(SciPyMembers):
     Parameters
     ----------
     points : array_like (n, 2) or (n, 3)
-        Sites: real, finite, at least d + 1 that do not lie on a plane, in the plane on a line.
+        Sites: real, finite, at least d + 1 that do not lie on a plane, in the plane on a line. Also a
+        table of pandas, a dataset of PyVista.
     furthest_site, incremental : bool
         As in SciPy's class, False only.
     qhull_options : str, optional

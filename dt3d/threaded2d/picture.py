@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from .._cell_data import cell_data, varies
+from .._mesh_data import carry, check_source, heights_of
 from .._optional import optional
 from .._output import new_figure
 
@@ -17,27 +19,38 @@ if TYPE_CHECKING:
     from .._triangulation import Triangulation
 
 
-def to_pyvista(tri: Triangulation, heights: npt.ArrayLike | None = None) -> pyvista.PolyData:
-    """The triangles as a surface with cell data "thread" and point data "inserted_by".
+def to_pyvista(
+    tri: Triangulation, heights: npt.ArrayLike | None = None, source: pyvista.DataSet | None = None
+) -> pyvista.PolyData:
+    """The triangles as a surface, with the cell data that `cell_data` has.
+
+    Where several threads inserted, point data "inserted_by" says which one inserted each site.
 
     Parameters
     ----------
     tri : threaded2d.Delaunay or Subset
         What is shown.
     heights : float (n,), optional
-        The third coordinate of each point; 0 if left out.
+        The third coordinate of each point. If left out it is the source's, and 0 without one.
+    source : pyvista.DataSet, optional
+        The dataset whose points were triangulated: the surface gets its point data.
 
     Raises
     ------
     ImportError
         If PyVista is not installed.
+    ValueError
+        If the source is no dataset, or has another number of points.
     """
     pv = optional("pyvista")
-    z = np.zeros(len(tri.points)) if heights is None else np.asarray(heights, np.float64)
+    check_source(source, len(tri.points))
+    z = heights_of(source, len(tri.points)) if heights is None else np.asarray(heights, np.float64)
     mesh: pyvista.PolyData = pv.PolyData.from_regular_faces(np.column_stack([tri.points, z]), tri.triangles)
-    # copies, since VTK writes where an array is read-only, too
-    mesh.cell_data["thread"] = tri.thread.copy()
-    mesh.point_data["inserted_by"] = tri.inserted_by.copy()
+    used = tri.inserted_by >= 0
+    if varies(tri.inserted_by[used]):
+        # a copy, since VTK writes where an array is read-only, too
+        mesh.point_data["inserted_by"] = tri.inserted_by.copy()
+    carry(mesh, cell_data(tri), source)
     return mesh
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import dt3d
 from dt3d import threaded2d
+from dt3d.interpolate import Linear
 
 RNG = np.random.default_rng(0)
 POINTS = RNG.random((20, 3))
@@ -335,6 +336,47 @@ def test_a_mesh_of_pyvista():
     np.testing.assert_array_equal(dt3d.Delaunay(mesh).points, POINTS.astype(np.float32))
     with pytest.raises(ValueError, match=r"without the third coordinate pass points.points\[:, :2\]"):
         threaded2d.Delaunay(mesh)
+
+
+def test_datasets_of_pyvista():
+    import pyvista
+
+    axis = np.array([0.0, 1, 3])
+    cloud = pyvista.PolyData(POINTS)
+    datasets = [
+        cloud.cast_to_unstructured_grid(),
+        cloud.cast_to_pointset(),
+        pyvista.ImageData(dimensions=(3, 3, 3)),
+        pyvista.RectilinearGrid(axis, axis, axis),
+        pyvista.StructuredGrid(*np.meshgrid(axis, axis, axis)),
+    ]
+    for dataset in datasets:
+        np.testing.assert_array_equal(dt3d.Delaunay(dataset).points, dataset.points)
+        np.testing.assert_array_equal(dt3d.Voronoi(dataset).points, dataset.points)
+    values = np.arange(len(POINTS))
+    np.testing.assert_allclose(Linear(cloud, values)(cloud), values, atol=1e-9)
+
+
+def test_a_mesh_of_meshio():
+    import meshio
+
+    mesh = meshio.Mesh(POINTS, [("vertex", [[0]])])
+    np.testing.assert_array_equal(dt3d.Delaunay(mesh).points, POINTS)
+
+
+def test_what_vtk_has_beside_datasets():
+    import pyvista
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+    blocks = pyvista.MultiBlock([pyvista.PolyData(POINTS), None])
+    with pytest.raises(ValueError, match=r"got a MultiBlock of 2 datasets; pass points\.combine\(\)"):
+        dt3d.Delaunay(blocks)
+    assert len(dt3d.Delaunay(blocks.combine()).points) == len(POINTS)
+    plain = vtkPolyData()
+    plain.ShallowCopy(pyvista.PolyData(POINTS))
+    with pytest.raises(ValueError, match=r"got a vtkPolyData; pass pyvista\.wrap\(points\)"):
+        dt3d.Delaunay(plain)
+    assert len(dt3d.Delaunay(pyvista.wrap(plain)).points) == len(POINTS)
 
 
 def test_arrays_of_jax():

@@ -5,8 +5,12 @@ import sys
 import numpy as np
 import pytest
 
+import dt3d
 from dt3d._mesh import hull_to_pyvista, show, to_pyvista
+from dt3d._mesh_data import carry
 from dt3d.files import check_mesh_path, read_mesh, read_points, write_mesh
+
+POINTS = np.random.default_rng(4).random((60, 3))
 
 
 def test_grid_keeps_numbers_and_carries_data(cube):
@@ -18,6 +22,80 @@ def test_grid_keeps_numbers_and_carries_data(cube):
     np.testing.assert_array_equal(grid.cell_data["iteration"], cube.iteration)
     np.testing.assert_allclose(grid.cell_data["volume"], 1 / 6)
     assert grid.volume == pytest.approx(1.0)
+
+
+def cloud_of(points):
+    pyvista = pytest.importorskip("pyvista")
+    cloud = pyvista.PolyData(points)
+    cloud["normal"] = np.arange(3.0 * len(points)).reshape(-1, 3)
+    cloud["label"] = np.arange(len(points), dtype=np.int16)
+    return cloud
+
+
+@pytest.mark.parametrize("part", [False, True])
+def test_the_point_data_of_a_source(part):
+    tri = dt3d.Delaunay(POINTS)
+    tri = tri.subset(np.arange(20)) if part else tri
+    cloud = cloud_of(POINTS)
+    cloud.set_active_scalars("label")
+    grid = tri.to_pyvista(cloud)
+    assert grid.point_data.keys() == ["normal", "label"]
+    for name in ("normal", "label"):
+        np.testing.assert_array_equal(grid.point_data[name], cloud[name])
+        assert grid.point_data[name].dtype == cloud[name].dtype
+        assert not np.shares_memory(grid.point_data[name], cloud[name])
+    assert grid.active_scalars_name == "label"
+    hull = tri.hull_to_pyvista(cloud)
+    np.testing.assert_array_equal(hull.point_data["label"], hull.point_data["site"])
+    np.testing.assert_array_equal(hull.points, POINTS[hull["site"]])
+
+
+def test_any_dataset_is_a_source():
+    pyvista = pytest.importorskip("pyvista")
+    image = pyvista.ImageData(dimensions=(3, 4, 5))
+    image["x"] = image.points[:, 0]
+    grid = dt3d.Delaunay(image).to_pyvista(image)
+    np.testing.assert_array_equal(grid.point_data["x"], grid.points[:, 0])
+
+
+def test_a_wrong_source_says_so():
+    tri = dt3d.Delaunay(POINTS)
+    for make in (tri.to_pyvista, tri.hull_to_pyvista, dt3d.Delaunay(POINTS[:, :2]).to_pyvista):
+        with pytest.raises(ValueError, match="source has 59 points, and the triangulation has 60"):
+            make(cloud_of(POINTS[:-1]))
+        with pytest.raises(
+            ValueError, match="source must be a dataset of PyVista, got a ndarray; .* for arrays"
+        ):
+            make(POINTS)
+
+
+def test_active_is_what_varies(cube):
+    grid = dt3d.Delaunay(POINTS).to_pyvista()
+    assert (grid.active_scalars_name, grid.active_scalars_info.association.name) == ("longest_edge", "CELL")
+    cloud = cloud_of(POINTS)
+    cloud["label"][:] = 7
+    cloud.set_active_scalars("label")
+    assert dt3d.Delaunay(POINTS).to_pyvista(cloud).active_scalars_name == "longest_edge"
+    # one edge length, one circumradius, one volume, one depth
+    assert to_pyvista(cube).active_scalars_name == "longest_edge"
+    alike = np.ones(grid.n_cells)
+    carry(grid, {"longest_edge": alike, "circumradius": alike, "depth": np.arange(grid.n_cells)})
+    assert grid.active_scalars_name == "depth"
+
+
+def test_a_terrain_of_a_source_in_the_plane():
+    tri = dt3d.Delaunay(POINTS[:, :2])
+    assert (tri.to_pyvista().points[:, 2] == 0).all()
+    terrain = tri.to_pyvista(cloud_of(POINTS))
+    np.testing.assert_array_equal(terrain.points, POINTS)
+    np.testing.assert_array_equal(terrain.point_data["label"], np.arange(60))
+    assert terrain.cell_data.keys()[:4] == ["area", "longest_edge", "circumradius", "depth"]
+    assert terrain.active_scalars_name == "normal"
+    assert tri.to_pyvista().active_scalars_name == "longest_edge"
+    outline = tri.hull_to_pyvista(cloud_of(POINTS))
+    np.testing.assert_array_equal(outline.points, POINTS[outline["site"]])
+    assert (outline.n_cells, outline.n_open_edges) == (len(tri.convex_hull), 0)
+    np.testing.assert_array_equal(outline["site"][outline.lines.reshape(-1, 3)[:, 1:]], tri.convex_hull)
 
 
 def test_hull_is_closed_and_faces_outwards(cube):
@@ -130,3 +208,46 @@ def test_window_shows_the_iterations(cube, monkeypatch):
     monkeypatch.setattr(pyvista, "Plotter", Window)
     show(cube, "a cube")
     assert calls == {"title": "a cube", "cells": 6, "scalars": "iteration", "shown": True}
+
+
+@pytest.mark.parametrize("name", ["space", "plane", "part"])
+def test_meshio_has_the_same_cells_and_data(name, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    tri = dt3d.Delaunay(POINTS[:, :2] if name == "plane" else POINTS)
+    tri = tri.subset([3, 1, 4]) if name == "part" else tri
+    mesh = tri.to_meshio()
+    assert mesh.points.shape == (60, 3)
+    np.testing.assert_array_equal(mesh.points[:, : tri.ndim], tri.points)
+    (block,) = mesh.cells
+    assert block.type == ("triangle" if name == "plane" else "tetra")
+    np.testing.assert_array_equal(block.data, tri.simplices)
+    grid = tri.to_pyvista()
+    assert list(mesh.cell_data) == grid.cell_data.keys()
+    for key, (values,) in mesh.cell_data.items():
+        np.testing.assert_array_equal(values, grid.cell_data[key])
+    assert not np.shares_memory(mesh.points, tri.points)
+    assert not np.shares_memory(block.data, tri.simplices)
+    mesh.write(tmp_path / "a.vtu")
+    np.testing.assert_array_equal(meshio.read(tmp_path / "a.vtu").cells[0].data, tri.simplices)
+
+
+def test_without_packages_the_methods_say_how_to_install_them(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    for points in (POINTS, POINTS[:, :2]):
+        tri = dt3d.Delaunay(points)
+        for method in (tri.to_pyvista, tri.hull_to_pyvista, tri.to_meshio):
+            with pytest.raises(ImportError, match=r"pip install 'dt3d\[view\]'"):
+                method()
+
+
+def test_a_window_of_one_iteration_shows_depths(monkeypatch):
+    import pyvista
+
+    calls = []
+    monkeypatch.setattr(
+        pyvista.Plotter, "add_mesh_clip_plane", lambda self, mesh, **o: calls.append(o["scalars"])
+    )
+    monkeypatch.setattr(pyvista.Plotter, "show", lambda self: self.close())
+    show(dt3d.Delaunay(POINTS))
+    assert calls == ["depth"]
