@@ -238,6 +238,13 @@ def test_version(capsys):
     assert re.fullmatch(r"\d+\.\d+\.\d+\n", capsys.readouterr().out)
 
 
+def test_python_runs_the_package():
+    command = [sys.executable, "-m", "dt3d", "--version"]
+    assert (
+        subprocess.run(command, capture_output=True, text=True, check=True).stdout == f"{dt3d.__version__}\n"
+    )
+
+
 def test_no_numbers_are_divided_by_nothing():
     stats = dt3d.Statistics(
         iterations=0,

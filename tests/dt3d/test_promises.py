@@ -281,7 +281,7 @@ def test_the_commands_end_with_one_line_and_status_2(tmp_path, name, content, ca
 def test_a_process_of_its_own_ends_likewise(tmp_path, command, name, content):
     (tmp_path / name).write_bytes(content)
     out = ["-o", str(tmp_path / "out.npz")] if command == "triangulate" else []
-    words = [sys.executable, "-m", "dt3d.cli", command, str(tmp_path / name), *out]
+    words = [sys.executable, "-m", "dt3d", command, str(tmp_path / name), *out]
     done = subprocess.run(words, capture_output=True, text=True)
     assert done.returncode == 2
     assert done.stdout == ""

@@ -1,4 +1,4 @@
-"""``python -m dt3d.cli``: the same as ``dt3d``."""
+"""``python -m dt3d``: the same as ``dt3d``."""
 
 import sys
 
