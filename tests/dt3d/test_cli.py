@@ -240,9 +240,8 @@ def test_version(capsys):
 
 def test_python_runs_the_package():
     command = [sys.executable, "-m", "dt3d", "--version"]
-    assert (
-        subprocess.run(command, capture_output=True, text=True, check=True).stdout == f"{dt3d.__version__}\n"
-    )
+    out = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert out == f"{dt3d.__version__}\n"
 
 
 def test_no_numbers_are_divided_by_nothing():
