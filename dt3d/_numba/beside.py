@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from .cores import available_cores
 from .kernel_cache import Kept, is_kept
@@ -24,17 +24,13 @@ def _is_python(path: str | None) -> bool:
     return path is not None and os.path.basename(path).startswith(("python", "pypy")) and os.path.isfile(path)
 
 
-def compiled_beside(
-    kernel: Callable[..., object], kinds: Sequence[object], module: str, function: str
-) -> Callable[[], None]:
+def compiled_beside(kernel: Callable[..., object], module: str, function: str) -> Callable[[], None]:
     """Begin to compile a kernel in a process of its own, unless that is needless or in vain.
 
     Parameters
     ----------
     kernel : function
-        Compiled by `cached_njit`.
-    kinds : sequence of numba.types.Type
-        Of its arguments.
+        Compiled by `cached_njit`, always for arguments of the same types.
     module, function : str
         The function of a module, without arguments, that compiles it for these.
 
@@ -48,7 +44,7 @@ def compiled_beside(
         or available_cores() < 2
         or not Kept.anywhere
         or not _is_python(sys.executable)
-        or is_kept(kernel, kinds)
+        or is_kept(kernel)
     ):
         return lambda: None
     program = PROGRAM.format(path=sys.path, module=module, function=function)

@@ -15,7 +15,7 @@ import os
 import pickle
 import time
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -88,12 +88,10 @@ def source_cache() -> type | None:
     return SourceCache
 
 
-def is_kept(kernel: Any, kinds: Sequence[object]) -> bool:
-    """Whether there is a record on disk of a kernel for arguments of these types; it is not read."""
+def is_kept(kernel: Any) -> bool:
+    """Whether there is a record on disk of a kernel, for this processor and some types; it is not read."""
     records = getattr(kernel._cache, "_cache_file", None)
-    if not isinstance(records, Records):
-        return False
-    return records.has(kernel._cache._index_key(tuple(kinds), kernel.targetctx.codegen()))
+    return isinstance(records, Records) and records.has_any_for(kernel.targetctx.codegen().magic_tuple())
 
 
 class Records:
@@ -114,9 +112,9 @@ class Records:
             return None
         return pickle.loads(data)
 
-    def has(self, key: object) -> bool:
-        """Return whether something was saved under a key."""
-        return key in self.file._load_index()
+    def has_any_for(self, processor: object) -> bool:
+        """Return whether something was saved for a processor, which a part of each key names."""
+        return any(processor in key for key in self.file._load_index())
 
     def save(self, key: object, data: object) -> None:
         """Save under a key; raises OSError."""

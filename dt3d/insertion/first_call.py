@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 
 import numba
 import numpy as np
@@ -14,22 +13,14 @@ from .store import Store
 from .worker import Scale, scratch_for
 
 
-@cache
-def _kinds() -> tuple[numba.types.Type, ...]:
-    """The types of the arguments of `insert`."""
+def compile_insert() -> None:
+    """Compile it for the types that arguments have, or load it from disk."""
     store = Store(np.zeros(16), np.arange(4, dtype=np.int32), slots=5, block=1)
     todo, state, work = np.empty(0, np.uint32), np.empty(0, np.int64), np.empty(0)
     arguments = store.mesh, todo, state, scratch_for(1), Scale(0.0, 0.0), work
-    return tuple(map(numba.typeof, arguments))
-
-
-def compile_insert() -> None:
-    """Compile it, or load it from disk."""
-    insert.compile(_kinds())
+    insert.compile(tuple(map(numba.typeof, arguments)))
 
 
 def insert_beside() -> Callable[[], None]:
     """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it."""
-    if insert.overloads:
-        return lambda: None
-    return compiled_beside(insert, _kinds(), __name__, compile_insert.__name__)
+    return compiled_beside(insert, __name__, compile_insert.__name__)

@@ -22,7 +22,7 @@ def compile_it():
 
 PROGRAM = """
 import sys, threading
-from numba.core import event, types
+from numba.core import event
 import dt3d._numba.beside as beside
 beside.available_cores = lambda: int(sys.argv[1])
 import module_of_a_test as m
@@ -32,7 +32,7 @@ class Listener(event.Listener):
     def on_start(self, e): compiled.append(e.data["dispatcher"].py_func.__name__)
     def on_end(self, e): pass
 
-wait = beside.compiled_beside(m.slow, (types.int64,), m.__name__, sys.argv[2])
+wait = beside.compiled_beside(m.slow, m.__name__, sys.argv[2])
 wait()
 event.register("numba:compile", Listener())
 assert m.slow(7) == 21
@@ -70,7 +70,7 @@ class Kernel:
 @pytest.fixture
 def missing(monkeypatch):
     monkeypatch.setattr(beside, "available_cores", lambda: 2)
-    monkeypatch.setattr(beside, "is_kept", lambda kernel, kinds: False)
+    monkeypatch.setattr(beside, "is_kept", lambda kernel: False)
 
 
 @pytest.mark.usefixtures("missing")
@@ -79,7 +79,7 @@ def test_no_process_is_no_error(monkeypatch):
         raise OSError
 
     monkeypatch.setattr(beside.subprocess, "Popen", refuse)
-    assert compiled_beside(Kernel(), (), "time", "sleep")() is None
+    assert compiled_beside(Kernel(), "time", "sleep")() is None
 
 
 @pytest.mark.usefixtures("missing")
@@ -98,5 +98,5 @@ def test_who_is_interrupted_leaves_no_process(monkeypatch):
     child = Child()
     monkeypatch.setattr(beside.subprocess, "Popen", lambda *_, **__: child)
     with pytest.raises(KeyboardInterrupt):
-        compiled_beside(Kernel(), (), "time", "sleep")()
+        compiled_beside(Kernel(), "time", "sleep")()
     assert (child.killed, child.waited) == (1, 2)
