@@ -55,12 +55,9 @@ def orient2d_open(rows, det, extents, w):
         return (det > 0.0) - (det < 0.0)
     value = dd.minor(p, q)[0]
     bound = ORIENT2D_BOUND_OF_PAIRS * (x * y) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[1]):
-        return 0
+    sign = (value > bound) - (value < -bound)
+    if sign != 0 or (discrete and dd.on_lattice((p, q), m, ORIENT2D_STEPS[1])):
+        return sign
     return orient2d_exact(a, b, c, w)
 
 
@@ -77,12 +74,9 @@ def in_circle_open(rows, det, extents, w):
     total = dd.add(dd.multiply(dd.square(p), dd.minor(q, r)), dd.multiply(dd.square(q), dd.minor(r, p)))
     value = dd.add(total, dd.multiply(dd.square(r), dd.minor(p, q)))[0]
     bound = IN_CIRCLE_BOUND_OF_PAIRS * (x * y * (m * m)) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[1]):
-        return 0
+    sign = (value > bound) - (value < -bound)
+    if sign != 0 or (discrete and dd.on_lattice((p, q, r), m, IN_CIRCLE_STEPS[1])):
+        return sign
     return in_circle_exact(a, b, c, d, w)
 
 
@@ -103,12 +97,9 @@ def orient3d_open(rows, det, extents, w):
         dd.multiply(dd.minor(r, p), q[2]),
     )[0]
     bound = ORIENT3D_BOUND_OF_PAIRS * (x * y * z) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice((p, q, r), m, ORIENT3D_STEPS[1]):
-        return 0
+    sign = (value > bound) - (value < -bound)
+    if sign != 0 or (discrete and dd.on_lattice((p, q, r), m, ORIENT3D_STEPS[1])):
+        return sign
     return orient3d_exact(a, b, c, d, w)
 
 
@@ -127,12 +118,9 @@ def in_sphere_open(rows, det, extents, w):
         return (det > 0.0) - (det < 0.0)
     value = _in_sphere_of_pairs(differences)[0]
     bound = IN_SPHERE_BOUND_OF_PAIRS * (x * y * z * (m * m)) + w[SLACK_INDEX]
-    if value > bound:
-        return 1
-    if value < -bound:
-        return -1
-    if discrete and dd.on_lattice(differences, m, IN_SPHERE_STEPS[1]):
-        return 0
+    sign = (value > bound) - (value < -bound)
+    if sign != 0 or (discrete and dd.on_lattice(differences, m, IN_SPHERE_STEPS[1])):
+        return sign
     return in_sphere_exact(a, b, c, d, e, w)
 
 
