@@ -59,7 +59,9 @@ def check_plane_path(path: str | Path) -> Path:
 
 def draw_plane(tri: Triangulation, path: Path) -> None:
     """Draw the triangles, coloured by the threads that made them; `plot.FORMATS` has the extensions."""
-    figure = tri.plot().get_figure(root=True)
+    from .threaded2d.picture import plot
+
+    figure = plot(tri).get_figure(root=True)
     assert figure is not None
     save_figure(figure, path, dpi=200)
 

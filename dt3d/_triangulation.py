@@ -5,7 +5,7 @@ Here d is the dimension, 2 or 3, n the number of sites and m that of simplices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, NoReturn
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Unpack
 
 import numpy as np
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
     from matplotlib.axes import Axes
+
+    from ._space_plot import SpaceLook
 
 SHARED: Names = ("points", "simplices", "neighbors", "duplicates")
 # further arrays of each dimension, with an entry per simplex and per site
@@ -175,24 +177,61 @@ class Triangulation(Result):
 
         return to_meshio(self)
 
-    def plot(self, ax: Axes | None = None, *, colormap: str = "tab10", edges: bool | None = None) -> Axes:
-        """Draw the triangles of a triangulation in the plane, coloured by the threads that made them.
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        colormap: str | None = None,
+        edges: bool | None = None,
+        **options: Unpack[SpaceLook],
+    ) -> Axes | pyvista.Plotter:
+        """Draw the triangulation: in the plane on axes of matplotlib, in space on a plotter of PyVista.
+
+        In the plane the triangles are coloured by the threads that made them. In space tetrahedra are
+        coloured by their depth, shrunk, and those before the middle are left out, so that the inside is seen;
+        ``tri.plot().show()`` opens a window, or shows the scene in a notebook.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
-            Those of a new figure if left out.
-        colormap : str
-            A name of matplotlib's.
+            In the plane; those of a new figure if left out.
+        colormap : str, optional
+            A name of matplotlib's; by default "tab10", in space "viridis".
         edges : bool, optional
-            Whether to draw edges; by default up to 20,000 triangles.
+            Whether to draw edges; by default up to 20,000 simplices.
+        scalars : str
+            This and what follows in space. The data that colours show, "depth" by default: one of the cell
+            data of `to_pyvista`, or of the point data of the source.
+        source : pyvista.DataSet, optional
+            As in `to_pyvista`.
+        longest : float, optional
+            Leave out tetrahedra with an edge longer than this: what stays of a molecule is its body.
+        shrink : float
+            Size of each tetrahedron about its middle, 0.8 by default; with 1 there are no gaps.
+        cut : bool
+            Whether to leave out what lies before the middle, True by default.
+        screenshot : str or Path, optional
+            A picture to write: .png, .jpg, .jpeg, .bmp, .tif or .tiff.
+        off_screen : bool, optional
+            Whether to do without a window; by default where there is a screenshot, else as PyVista is set.
+        window_size : (int, int), optional
+            Width and height in pixels.
+
+        Returns
+        -------
+        matplotlib.axes.Axes or pyvista.Plotter
+            With the picture on it; further meshes can be added before it is shown.
 
         Raises
         ------
         ValueError
-            If the triangulation is in space.
+            For options that are out of range or of the other dimension, and if no tetrahedra are left.
+        TypeError
+            For an option that there is not.
+        OSError
+            If the screenshot cannot be written.
         ImportError
-            If matplotlib is not installed; the message says how to install it.
+            If matplotlib or PyVista is not installed; the message says how to install it.
 
         Examples
         --------
@@ -201,12 +240,31 @@ class Triangulation(Result):
         >>> len(ax.collections[0].get_paths())
         2
         """
-        if self.ndim != 2:
-            msg = "plot() draws triangulations in the plane; in space use to_pyvista().plot(), or dt3d.plot"
-            raise ValueError(msg)
-        from .threaded2d.picture import plot
+        self._check_plot(ax, options)
+        if self.ndim == 2:
+            from .threaded2d.picture import plot
 
-        return plot(self, ax, colormap=colormap, edges=edges)
+            return plot(self, ax, colormap=colormap or "tab10", edges=edges)
+        from ._space_plot import Look
+        from ._space_plot import plot as plot_in_space
+
+        return plot_in_space(self, Look(edges=edges, colormap=colormap, **options))
+
+    def _check_plot(self, ax: Axes | None, options: SpaceLook) -> None:
+        from ._options import check_names
+        from ._space_plot import SpaceLook
+
+        check_names(options, SpaceLook.__annotations__, "plot()")
+        if self.ndim == 2 and options:
+            name = next(iter(options))
+            msg = f"{name} goes with triangulations in space, and this one is in the plane; leave it out"
+            raise ValueError(msg)
+        if self.ndim == 3 and ax is not None:
+            msg = (
+                "ax goes with triangulations in the plane; in space plot() returns a plotter of PyVista. "
+                "dt3d.plot.paint(tri, ax) paints tetrahedra on axes of matplotlib"
+            )
+            raise ValueError(msg)
 
     if not TYPE_CHECKING:  # to mypy there would be every attribute
 

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 FORMATS = (".png", ".pdf", ".svg", ".jpg")
 
+# a tetrahedron is cut away if its middle lies on this side of a plane, to the right, up and towards the eye
+CUT = np.array([0.5, 0.15, 0.85])
 EYE = 4.0  # distance of the eye from the centre, in radii of the set
 
 
@@ -141,13 +143,13 @@ def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float =
         If matplotlib is not installed.
     """
     mpl = _import_matplotlib()
-    camera = _camera(view)
+    axes = camera(view)
 
     # the unit ball about the used points; several pictures of one set agree in scale
     used = tri.points[np.unique(tri.simplices)]
     centre = (used.min(axis=0) + used.max(axis=0)) / 2
     radius = np.linalg.norm(used - centre, axis=1).max()
-    corners = (((tri.points - centre) / radius) @ camera.T)[tri.simplices]
+    corners = (((tri.points - centre) / radius) @ axes.T)[tri.simplices]
 
     shown = _shown(corners * radius, tri.iteration, view)
     corners, iteration = corners[shown], np.asarray(tri.iteration)[shown]
@@ -173,7 +175,7 @@ def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float =
         mpl.collections.PolyCollection(flat, facecolors=color, edgecolors=0.6 * color, linewidths=thickness)
     )
     # room for all the sites, so that pictures of a growing set stay in place
-    sites = ((used - centre) / radius) @ camera.T
+    sites = ((used - centre) / radius) @ axes.T
     sites = sites[:, :2] * (EYE / (EYE - sites[:, 2:]))
     (left, low), (right, high) = sites.min(axis=0), sites.max(axis=0)
     ax.set(xlim=(left, right), ylim=(low, high), aspect="equal")
@@ -203,8 +205,8 @@ def _palette(mpl: ModuleType, last: int) -> np.ndarray:
     return np.asarray(mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, last)))[:, :3]
 
 
-def _camera(view: View) -> np.ndarray:
-    """Rows: right, up, and towards the eye."""
+def camera(view: View) -> np.ndarray:
+    """The directions of a view, float64 (3, 3): rows to the right, up, and towards the eye."""
     a, e = np.radians([view.azimuth, view.elevation])
     toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([-np.sin(a), np.cos(a), 0.0])
@@ -219,7 +221,7 @@ def _shown(corners: np.ndarray, iteration: np.ndarray, view: View) -> np.ndarray
         edges = corners[:, [0, 0, 0, 1, 1, 2]] - corners[:, [1, 2, 3, 2, 3, 3]]
         shown &= np.linalg.norm(edges, axis=2).max(axis=1) <= view.longest
     if view.cut:
-        shown &= corners.mean(axis=1) @ [0.5, 0.15, 0.85] < 0
+        shown &= corners.mean(axis=1) @ CUT < 0
     return shown
 
 

@@ -52,7 +52,7 @@ def test_views_leave_out_what_they_say(cube):
 
 
 def test_camera_is_a_rotation():
-    camera = plot._camera(View(azimuth=70, elevation=-20))
+    camera = plot.camera(View(azimuth=70, elevation=-20))
     np.testing.assert_allclose(camera @ camera.T, np.eye(3), atol=1e-15)
     assert np.linalg.det(camera) == pytest.approx(1.0)
 

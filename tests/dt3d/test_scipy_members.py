@@ -215,8 +215,6 @@ def test_attributes_of_the_other_dimension_say_where_they_are():
             getattr(space, name)
     with pytest.raises(AttributeError, match="'Delaunay' object has no attribute 'simplexes'"):
         space.simplexes  # noqa: B018
-    with pytest.raises(ValueError, match="plot.* draws triangulations in the plane"):
-        space.plot()
 
 
 @pytest.mark.parametrize("name", SETS)

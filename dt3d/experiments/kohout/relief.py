@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..._optional import optional
+from ..._space_plot import quiet
 from ...threaded2d.picture import to_pyvista
 
 if TYPE_CHECKING:
@@ -86,8 +87,7 @@ def paint(
 def _off_screen(width: int, height: int) -> Iterator[Any]:  # PyVista's types are wrong where it decorates
     """A plotter without a window, about whose lack VTK does not complain."""
     pv = optional("pyvista")
-    quiet = pv.vtk_verbosity("off") if hasattr(pv, "vtk_verbosity") else nullcontext()
-    with quiet:
+    with quiet(pv):
         plotter = pv.Plotter(off_screen=True, window_size=(width, height), lighting="none")
         try:
             yield plotter
