@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ._topology import OUTSIDE
+from ._topology import OUTSIDE, matched
 
 
 class Simplices(Protocol):
@@ -103,10 +103,8 @@ def neighbors_of(simplices: np.ndarray) -> np.ndarray:
     """
     m, corners = simplices.shape
     opposite = [np.delete(np.arange(corners), k) for k in range(corners)]
-    facets = np.sort(simplices[:, opposite].reshape(-1, corners - 1), axis=1)
-    order = np.lexsort(facets.T)
-    same = np.flatnonzero((facets[order[1:]] == facets[order[:-1]]).all(axis=1))
-    first, second = order[same], order[same + 1]
+    pairs, _ = matched(simplices[:, opposite].reshape(-1, corners - 1))
+    first, second = pairs.T
     neighbors = np.full(m * corners, OUTSIDE, np.int64)
     neighbors[first] = second // corners
     neighbors[second] = first // corners

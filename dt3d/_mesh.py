@@ -94,8 +94,7 @@ def hull_to_pyvista(tri: Triangulation, source: pyvista.DataSet | None = None) -
     pv = optional("pyvista")
     check_source(source, len(tri.points))
     facets = surface(tri)
-    points, faces = own_points(tri.points, facets)
-    sites = np.unique(facets)
+    points, faces, sites = own_points(tri.points, facets)
     if tri.points.shape[1] == 3:
         polygons: pyvista.PolyData = pv.PolyData.from_regular_faces(points, faces)
     else:
@@ -103,7 +102,7 @@ def hull_to_pyvista(tri: Triangulation, source: pyvista.DataSet | None = None) -
         polygons = pv.PolyData(
             np.column_stack([points, heights_of(source, len(tri.points))[sites]]), lines=lines
         )
-    polygons.point_data["site"] = sites.astype(np.int32)
+    polygons.point_data["site"] = sites
     carry(polygons, {}, source, sites)
     return polygons
 
@@ -125,10 +124,14 @@ def to_meshio(tri: Triangulation) -> meshio.Mesh:
     return mesh
 
 
-def own_points(points: np.ndarray, facets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The points that facets (h, d) have, float64 (k, d), and the facets as int32 rows of these."""
+def own_points(points: np.ndarray, facets: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The points that facets (h, d) have, float64 (k, d), the facets as rows of these, and their numbers.
+
+    The rows are int32 (h, d), the numbers int32 (k,).
+    """
     corners, faces = np.unique(facets, return_inverse=True)
-    return np.asarray(points, np.float64)[corners], faces.reshape(facets.shape).astype(np.int32)
+    faces = faces.reshape(facets.shape).astype(np.int32)
+    return np.asarray(points, np.float64)[corners], faces, corners.astype(np.int32)
 
 
 def show(tri: Tetrahedra, title: str = "") -> None:

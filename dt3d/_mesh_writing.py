@@ -123,7 +123,7 @@ def _write_medit(tri: Delaunay | Subset, path: Path) -> None:
 def write_ply(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
     """Write facets (h, 3) of points (n, 3) as binary PLY, which has no other points."""
     meshio = optional("meshio")
-    points, facets = own_points(points, facets)
+    points, facets, _ = own_points(points, facets)
     meshio.ply.write(path, meshio.Mesh(points, {"triangle": facets}), binary=True)
 
 
@@ -134,7 +134,7 @@ def write_stl(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
 
     meshio has NumPy write the facets (``tofile``), which overlooks a disk that is full at their end.
     """
-    points, facets = own_points(points, facets)
+    points, facets, _ = own_points(points, facets)
     greatest = np.abs(points).max(initial=0.0)
     if greatest > np.finfo(np.float32).max:
         msg = f"a coordinate of {greatest:g} is beyond the single precision of .stl; write .ply"

@@ -12,14 +12,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import jax
 import numpy as np
 from jax.extend.core import Primitive
 from jax.interpreters import batching, mlir
 
-from .foreign import Filler, target_of
+from .foreign import target_of
+
+if TYPE_CHECKING:
+    from .foreign import Filler
 
 Shapes = tuple[jax.core.ShapedArray, ...]
 

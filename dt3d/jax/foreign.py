@@ -9,16 +9,18 @@ their ends. What a function raises becomes the error of the program, in its word
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from ctypes import POINTER, Structure, c_char_p, c_int, c_int64, c_size_t, c_uint32, c_void_p
 from functools import cache
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import jax
 import numpy as np
 
-Arrays = Sequence[np.ndarray]
-Filler = Callable[[Arrays, Arrays], None]  # of what is given, and of what is to be filled
+if TYPE_CHECKING:
+    from .host import Arrays
+
+    Filler = Callable[[Arrays, Arrays], None]  # of what is given, and of what is to be filled
 
 MAJOR_VERSION = 0  # of the interface: another one may have other structures
 METADATA = 1  # the extension by which XLA asks a handler for its version

@@ -7,6 +7,7 @@ this module does not import it, and reads and fills arrays of NumPy (`callback.p
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,8 +21,10 @@ from ..location import Locator
 from .status import Status
 from .whole_arithmetic import in_whole_arithmetic
 
+if TYPE_CHECKING:
+    from ..threaded2d.compaction import Room
+
 Arrays = Sequence[np.ndarray]
-Room = Callable[[int], tuple[np.ndarray, np.ndarray]]
 # sites of a set from which all threads on one set after another beat one set per thread, where there are
 # fewer sets than threads
 SITES_WORTH_ALL_THREADS = 20_000

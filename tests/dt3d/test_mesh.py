@@ -2,8 +2,10 @@
 
 import sys
 
+import meshio
 import numpy as np
 import pytest
+import pyvista
 
 import dt3d
 from dt3d._mesh import hull_to_pyvista, show, to_pyvista
@@ -25,7 +27,6 @@ def test_grid_keeps_numbers_and_carries_data(cube):
 
 
 def cloud_of(points):
-    pyvista = pytest.importorskip("pyvista")
     cloud = pyvista.PolyData(points)
     cloud["normal"] = np.arange(3.0 * len(points)).reshape(-1, 3)
     cloud["label"] = np.arange(len(points), dtype=np.int16)
@@ -51,7 +52,6 @@ def test_the_point_data_of_a_source(part):
 
 
 def test_any_dataset_is_a_source():
-    pyvista = pytest.importorskip("pyvista")
     image = pyvista.ImageData(dimensions=(3, 4, 5))
     image["x"] = image.points[:, 0]
     grid = dt3d.Delaunay(image).to_pyvista(image)
@@ -212,7 +212,6 @@ def test_window_shows_the_iterations(cube, monkeypatch):
 
 @pytest.mark.parametrize("name", ["space", "plane", "part"])
 def test_meshio_has_the_same_cells_and_data(name, tmp_path):
-    meshio = pytest.importorskip("meshio")
     tri = dt3d.Delaunay(POINTS[:, :2] if name == "plane" else POINTS)
     tri = tri.subset([3, 1, 4]) if name == "part" else tri
     mesh = tri.to_meshio()

@@ -8,11 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import pyvista
 
 import dt3d
-
-pyvista = pytest.importorskip("pyvista", "0.48")
-import dt3d.pyvista  # noqa: E402
+import dt3d.pyvista
 
 POINTS = np.random.default_rng(2).random((80, 3))
 ROOT = Path(dt3d.__file__).parents[1]

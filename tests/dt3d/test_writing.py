@@ -2,7 +2,6 @@
 
 import errno
 import os
-import signal
 import stat
 import subprocess
 import sys
@@ -18,7 +17,7 @@ import pytest
 import scanvec as sv
 from dt3d._output import write_csv
 from dt3d._paths import check_apart, check_writable, written_aside
-from dt3d.files import read_mesh, read_points, write_mesh
+from dt3d.files import read_mesh, write_mesh
 from dt3d.plot import draw
 
 from .disks import small_files
@@ -346,104 +345,6 @@ def test_names_that_are_long_or_not_text(tmp_path, cube, name):
     assert os.listdir(tmp_path) == [name]
     if name != NOT_TEXT:  # VTK opens no such file
         np.testing.assert_array_equal(read_mesh(tmp_path / name).simplices, cube.simplices)
-
-
-# signals
-
-
-WRITE = """
-import importlib.util, sys, time
-spec = importlib.util.spec_from_file_location("writing", sys.argv[1])
-writing = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(writing)  # without JAX, which takes a second
-with writing.written_aside(sys.argv[2]) as aside:
-    aside.write_bytes(b"a part")
-    print("ready", flush=True)
-    for _ in range(600):  # a signal that comes just before a sleep is heard after it
-        time.sleep(0.1)
-"""
-
-
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGKILL"])
-def test_a_signal_while_writing(tmp_path, name):
-    path = tmp_path / "old.csv"
-    path.write_bytes(OLD)
-    module = Path(sv.__file__).parent / "_writing.py"
-    words = [sys.executable, "-c", WRITE, str(module), str(path)]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "ready\n"
-        process.send_signal(signal.Signals[name])
-        process.wait(30)
-    assert process.returncode == -signal.Signals[name]  # it ends as it would have
-    assert path.read_bytes() == OLD
-    left = [other for other in os.listdir(tmp_path) if other != path.name]
-    if name == "SIGKILL":  # which nobody hears; what is left says of whom it is
-        assert [other.split("-")[:2] for other in left] == [[".old.dt3d", str(process.pid)]]
-        assert left[0].endswith(".csv")
-    else:
-        assert left == []
-
-
-def test_another_s_handler_of_signals_stays(tmp_path):
-    heard = []
-    before = signal.signal(signal.SIGTERM, lambda *_: heard.append(1))
-    try:
-        with written_aside(tmp_path / "a.csv") as aside:
-            signal.raise_signal(signal.SIGTERM)
-            aside.write_text("x")
-        assert heard == [1]
-        assert (tmp_path / "a.csv").read_text() == "x"
-    finally:
-        signal.signal(signal.SIGTERM, before)
-    with written_aside(tmp_path / "a.csv"):
-        assert signal.getsignal(signal.SIGTERM) is not before
-    assert signal.getsignal(signal.SIGTERM) is before
-
-
-def test_threads_write_one_file_at_once(tmp_path):
-    """Each writes its own file aside; the last to end wins, and no two are mixed."""
-    path, errors = tmp_path / "a.csv", []
-
-    def write(k):
-        try:
-            write_csv(path, ["x"], [[k]] * 2000)
-        except BaseException as error:
-            errors.append(error)
-
-    threads = [threading.Thread(target=write, args=(k,)) for k in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert errors == []
-    lines = path.read_text().split()
-    assert len(lines) == 2001
-    assert len(set(lines[1:])) == 1
-    assert os.listdir(tmp_path) == ["a.csv"]
-
-
-# what the formats hold
-
-
-def test_hulls_of_all_magnitudes(cube, tmp_path):
-    for scale in (1e-300, 1e-30, 1.0, 1e30, 1e300):
-        cube.points = cube.points / cube.points.max() * scale
-        write_mesh(cube, tmp_path / "a.ply")
-        assert {tuple(row) for row in read_points(tmp_path / "a.ply")} == {tuple(row) for row in cube.points}
-        if scale < 1e38:
-            write_mesh(cube, tmp_path / "a.stl")
-    with pytest.raises(ValueError, match=r"1e\+300 is beyond the single precision of \.stl; write \.ply"):
-        write_mesh(cube, tmp_path / "a.stl")
-    write_mesh(cube, tmp_path / "a.ply")
-
-
-def test_normals_of_stl_point_outwards(cube, tmp_path):
-    write_mesh(cube, tmp_path / "a.stl")
-    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-    faces = np.frombuffer((tmp_path / "a.stl").read_bytes()[84:], kind)
-    assert len(faces) == 12
-    outwards = np.einsum("ij,ij->i", faces["normal"], faces["corners"].mean(axis=1) - 0.5)
-    np.testing.assert_allclose(outwards, 0.5)
 
 
 def test_a_ledger_is_written_aside_too(tmp_path):
