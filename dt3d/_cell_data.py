@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from typing import Protocol
 
 import numpy as np
@@ -36,6 +35,8 @@ def cell_data(tri: Simplices) -> dict[str, np.ndarray]:
     ============= ============================================================================================
     """
     from .geometry.circumcenters import circumcenters
+    from .geometry.depths import depths
+    from .geometry.edge_lengths import longest_edges
     from .geometry.measures import measures
 
     points = np.ascontiguousarray(tri.points, np.float64)
@@ -61,39 +62,6 @@ def cell_data(tri: Simplices) -> dict[str, np.ndarray]:
 def varies(values: np.ndarray) -> bool:
     """Whether an array has more than one value, so that colours tell something."""
     return bool(values.size) and bool((values != values.flat[0]).any())
-
-
-def longest_edges(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
-    """The length of the longest edge of each simplex, float64 (m,)."""
-    longest = np.zeros(len(simplices))
-    for i, j in itertools.combinations(range(simplices.shape[1]), 2):
-        # hypot and not squares, which may overflow or underflow
-        edge = np.hypot.reduce(points[simplices[:, i]] - points[simplices[:, j]], axis=1)
-        np.maximum(longest, edge, out=longest)
-    return longest
-
-
-def depths(neighbors: np.ndarray) -> np.ndarray:
-    """How many facets lie between each simplex and the hull, int32 (m,).
-
-    It is the distance in the graph of simplices with a common facet from those that have a facet without
-    neighbour. -1 for simplices that no path joins with these, which damaged meshes may have.
-
-    Parameters
-    ----------
-    neighbors : int (m, d + 1)
-        `OUTSIDE` where there is none.
-    """
-    depth = np.full(len(neighbors), -1, np.int32)
-    front = np.flatnonzero((neighbors == OUTSIDE).any(axis=1))
-    for level in range(len(neighbors) + 1):
-        if not len(front):
-            break
-        depth[front] = level
-        beside = neighbors[front]
-        beside = beside[beside != OUTSIDE]
-        front = np.unique(beside[depth[beside] < 0])
-    return depth
 
 
 def neighbors_of(simplices: np.ndarray) -> np.ndarray:

@@ -1,8 +1,10 @@
-"""What a mesh of PyVista is given beside points and cells: data of cells, and the point data of a source."""
+"""What a mesh is given beside points and cells: data of cells, and of points."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -10,6 +12,39 @@ from ._cell_data import varies
 
 if TYPE_CHECKING:
     import pyvista
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Content(Generic[T]):
+    """What is written into a file, and how.
+
+    Attributes
+    ----------
+    tri : Delaunay, Subset or threaded2d.Delaunay
+        The triangulation.
+    point_data : mapping of str to (n, ...) arrays
+        Data of its sites.
+    compress : bool
+        Whether the file is to be small rather than soon there.
+    """
+
+    tri: T
+    point_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    compress: bool = False
+
+
+def check_point_data(point_data: Mapping[str, np.ndarray], n: int) -> dict[str, np.ndarray]:
+    """The arrays, if each has an entry per site; otherwise a ValueError."""
+    found = {name: np.asarray(values) for name, values in point_data.items()}
+    for name, values in found.items():
+        if values.shape[:1] != (n,):
+            msg = (
+                f"point data {name!r} must have an entry for each of the {n} sites, got shape {values.shape}"
+            )
+            raise ValueError(msg)
+    return found
 
 
 def check_source(source: object, n: int) -> None:
@@ -64,8 +99,14 @@ def carry(
     if active is not None and varies(np.asarray(mesh.point_data[active])):
         mesh.set_active_scalars(active, preference="point")
         return
-    # not the depth, which is 0 all over the hull; that is seen first
-    names = [name for name in ("longest_edge", "circumradius", "volume", "area", "depth") if name in cells]
-    if names:
-        telling = next((name for name in names if varies(cells[name])), names[0])
+    if telling := telling_of(cells):
         mesh.set_active_scalars(telling, preference="cell")
+
+
+def telling_of(cells: Mapping[str, np.ndarray]) -> str:
+    """The name of the cell data that say most at first sight; empty if there are none.
+
+    Not the depth, which is 0 all over the hull; that is seen first.
+    """
+    names = [name for name in ("longest_edge", "circumradius", "volume", "area", "depth") if name in cells]
+    return next((name for name in names if varies(cells[name])), names[0] if names else "")

@@ -6,31 +6,41 @@ Formats of space get z = 0 for every point.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from ._cell_data import cell_data
-from ._mesh_data import carry
-from ._mesh_writing import save_legacy, save_xml, write_ply, write_stl
+from ._cell_data import cell_data, varies
+from ._mesh_data import Content, carry, check_point_data, telling_of
+from ._mesh_writing import save_arrays, save_legacy, write_ply, write_stl
 from ._optional import optional
 from ._output import save_figure
 from ._paths import check_target, written_aside
+from ._vtk_xml import XmlMesh, write_xml
 
 if TYPE_CHECKING:
     import pyvista
 
     from ._triangulation import Triangulation
 
+    InPlane: TypeAlias = Content[Triangulation]
 
-def write_plane_mesh(tri: Triangulation, path: str | Path) -> None:
+
+def write_plane_mesh(
+    tri: Triangulation,
+    path: str | Path,
+    *,
+    point_data: Mapping[str, np.ndarray] | None = None,
+    compress: bool = False,
+) -> None:
     """Write a triangulation in the plane.
 
     =============== ==========================================================================================
     .npz            arrays points (n, 2), triangles, neighbors and thread
-    .vtu .vtk .vtp  the triangles, with the cell data of `cell_data` (needs PyVista)
+    .vtu .vtk .vtp  the triangles, with the cell data of `cell_data` (.vtk needs PyVista)
     .msh .mesh      the triangles for Gmsh and Medit (needs meshio)
     .ply .stl .obj  the triangles as a surface; .stl in single precision (.ply needs meshio)
     =============== ==========================================================================================
@@ -41,15 +51,19 @@ def write_plane_mesh(tri: Triangulation, path: str | Path) -> None:
         What is written.
     path : str or Path
         A file that exists is replaced, when the new one is whole.
+    point_data, compress
+        As `dt3d.files.write_mesh` has them; .vtp holds and packs what .vtu does.
 
     Raises
     ------
     OSError, ValueError, ImportError
-        As `check_plane_path` says, if the file cannot be written, and if .stl cannot hold the coordinates.
+        As `check_plane_path` says, if the file cannot be written, if .stl cannot hold the coordinates, and if
+        point data have not an entry per site.
     """
     path = check_plane_path(path)
+    content = Content(tri, check_point_data(point_data or {}, len(tri.points)), compress)
     with written_aside(path) as aside:
-        WRITERS[path.suffix.lower()](tri, aside)
+        WRITERS[path.suffix.lower()](content, aside)
 
 
 def check_plane_path(path: str | Path) -> Path:
@@ -71,49 +85,51 @@ def _raised(tri: Triangulation) -> np.ndarray:
     return np.column_stack([tri.points, np.zeros(len(tri.points))])
 
 
-def _write_npz(tri: Triangulation, path: Path) -> None:
-    with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
-        np.savez_compressed(
-            file, points=tri.points, triangles=tri.triangles, neighbors=tri.neighbors, thread=tri.thread
-        )
+def _write_npz(content: InPlane, path: Path) -> None:
+    names = ("points", "triangles", "neighbors", "thread")
+    save_arrays(path, content, {name: getattr(content.tri, name) for name in names})
 
 
-def _grid(tri: Triangulation) -> pyvista.UnstructuredGrid:
+def _xml_mesh(content: InPlane) -> XmlMesh:
+    tri, cells = content.tri, cell_data(content.tri)
+    return XmlMesh(_raised(tri), tri.triangles, cells, content.point_data, telling_of(cells))
+
+
+def _write_vtu(content: InPlane, path: Path) -> None:
+    write_xml(_xml_mesh(content), path, compress=content.compress)
+
+
+def _write_vtp(content: InPlane, path: Path) -> None:
+    mesh, inserted_by = _xml_mesh(content), content.tri.inserted_by
+    if varies(inserted_by[inserted_by >= 0]):  # as `to_pyvista` has it
+        mesh = replace(mesh, point_data={"inserted_by": inserted_by, **mesh.point_data})
+    write_xml(mesh, path, surface=True, compress=content.compress)
+
+
+def _write_vtk(content: InPlane, path: Path) -> None:
     pv = optional("pyvista")
+    tri = content.tri
     grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     carry(grid, cell_data(tri))
-    return grid
+    for name, values in content.point_data.items():
+        grid.point_data[name] = values
+    save_legacy(grid, path)
 
 
-def _write_vtu(tri: Triangulation, path: Path) -> None:
-    grid = _grid(tri)  # says what to install where VTK is missing
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-
-    save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
-
-
-def _write_vtp(tri: Triangulation, path: Path) -> None:
-    surface = tri.to_pyvista()
-    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-
-    save_xml(vtkXMLPolyDataWriter(), surface, path)
-
-
-def _write_vtk(tri: Triangulation, path: Path) -> None:
-    save_legacy(_grid(tri), path)
-
-
-def _write_gmsh(tri: Triangulation, path: Path) -> None:
+def _write_gmsh(content: InPlane, path: Path) -> None:
     meshio = optional("meshio")
-    meshio.gmsh.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}), "4.1")
+    tri = content.tri
+    mesh = meshio.Mesh(_raised(tri), {"triangle": tri.triangles}, point_data=content.point_data)
+    meshio.gmsh.write(path, mesh, "4.1")
 
 
-def _write_medit(tri: Triangulation, path: Path) -> None:
+def _write_medit(content: InPlane, path: Path) -> None:
     meshio = optional("meshio")
-    meshio.medit.write(path, meshio.Mesh(_raised(tri), {"triangle": tri.triangles}))
+    meshio.medit.write(path, meshio.Mesh(_raised(content.tri), {"triangle": content.tri.triangles}))
 
 
-def _write_obj(tri: Triangulation, path: Path) -> None:
+def _write_obj(content: InPlane, path: Path) -> None:
+    tri = content.tri
     text = io.StringIO()
     text.write("# triangulation in the plane by dt3d\n")
     text.writelines(f"v {x!r} {y!r} 0\n" for x, y in tri.points.tolist())
@@ -121,14 +137,14 @@ def _write_obj(tri: Triangulation, path: Path) -> None:
     path.write_text(text.getvalue(), encoding="ascii")
 
 
-WRITERS: dict[str, Callable[[Triangulation, Path], None]] = {
+WRITERS: dict[str, Callable[[InPlane, Path], None]] = {
     ".npz": _write_npz,
     ".vtu": _write_vtu,
     ".vtk": _write_vtk,
     ".vtp": _write_vtp,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": lambda tri, path: write_ply(_raised(tri), tri.triangles, path),
-    ".stl": lambda tri, path: write_stl(_raised(tri), tri.triangles, path),
+    ".ply": lambda content, path: write_ply(_raised(content.tri), content.tri.triangles, path),
+    ".stl": lambda content, path: write_stl(_raised(content.tri), content.tri.triangles, path),
     ".obj": _write_obj,
 }

@@ -1,36 +1,45 @@
 """Writing triangulations. Every file is written aside and takes its name when it is whole.
 
 VTK does not write to the disk itself: where that is full its writers end the process (XML), say nothing (PLY)
-or print on the terminal. They write into memory, and Python writes that to the disk.
+or print on the terminal. What it writes goes into memory, and Python writes that to the disk.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from ._cell_data import cell_data
 from ._mesh import own_points, sizes, surface, to_pyvista
+from ._mesh_data import Content, check_point_data, telling_of
 from ._optional import optional
 from ._paths import check_target, written_aside
+from ._vtk_xml import XmlMesh, write_xml
 
 if TYPE_CHECKING:
     import pyvista
-    from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
-    from vtkmodules.vtkIOXML import vtkXMLWriter
 
     from .delaunay import Delaunay
     from .subset import Subset
 
+    InSpace: TypeAlias = Content[Delaunay | Subset]
 
-def write_mesh(tri: Delaunay | Subset, path: str | Path) -> None:
+
+def write_mesh(
+    tri: Delaunay | Subset,
+    path: str | Path,
+    *,
+    point_data: Mapping[str, np.ndarray] | None = None,
+    compress: bool = False,
+) -> None:
     """Write a triangulation.
 
     ============ =============================================================================================
-    .vtu .vtk    the tetrahedra, with the cell data of ``to_pyvista`` (needs PyVista)
-    .npz         arrays points, simplices, neighbors, iteration and volume
+    .vtu .vtk    the tetrahedra, with the cell data of ``to_pyvista`` (.vtk needs PyVista)
+    .npz         arrays points, simplices, neighbors, iteration and volume, and the point data
     .msh .mesh   the tetrahedra for Gmsh and Medit; Medit's reference is the iteration (needs meshio)
     .ply .stl    the surface of the convex hull; .stl in single precision (.ply needs meshio)
     ============ =============================================================================================
@@ -42,15 +51,21 @@ def write_mesh(tri: Delaunay | Subset, path: str | Path) -> None:
     path : str or Path
         A file that exists is replaced, when the new one is whole; until then, and if it cannot be
         written, it is as it was.
+    point_data : mapping of str to arrays (n, ...), optional
+        Data of the sites, which .vtu, .vtk, .npz and .msh hold; the others have no room for them.
+    compress : bool
+        Pack .vtu and .npz: they have some two thirds of the size, and take some ten times as long to write.
 
     Raises
     ------
     OSError, ValueError, ImportError
-        As `check_mesh_path` says, if the file cannot be written, and if .stl cannot hold the coordinates.
+        As `check_mesh_path` says, if the file cannot be written, if .stl cannot hold the coordinates, and if
+        point data have not an entry per site.
     """
     path = check_mesh_path(path)
+    content = Content(tri, check_point_data(point_data or {}, len(tri.points)), compress)
     with written_aside(path) as aside:
-        WRITERS[path.suffix.lower()](tri, aside)
+        WRITERS[path.suffix.lower()](content, aside)
 
 
 def check_mesh_path(path: str | Path) -> Path:
@@ -66,29 +81,31 @@ def check_mesh_path(path: str | Path) -> Path:
     return check_target(path, WRITERS, "write a mesh to")
 
 
-def _write_npz(tri: Delaunay | Subset, path: Path) -> None:
-    arrays = {name: getattr(tri, name) for name in ("points", "simplices", "neighbors", "iteration")}
+def save_arrays(path: Path, content: Content[Any], arrays: dict[str, np.ndarray]) -> None:
+    """Write arrays, and the point data under other names, as .npz."""
+    points = {f"point_{name}" if name in arrays else name: v for name, v in content.point_data.items()}
+    save: Any = np.savez_compressed if content.compress else np.savez
     with path.open("wb") as file:  # NumPy puts .npz behind a name that ends in .NPZ
-        np.savez_compressed(file, volume=sizes(tri), **arrays)
+        save(file, **arrays, **points)
 
 
-def _write_vtu(tri: Delaunay | Subset, path: Path) -> None:
-    grid = to_pyvista(tri)  # says what to install where VTK is missing
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-
-    save_xml(vtkXMLUnstructuredGridWriter(), grid, path)
+def _write_npz(content: InSpace, path: Path) -> None:
+    arrays = {name: getattr(content.tri, name) for name in ("points", "simplices", "neighbors", "iteration")}
+    save_arrays(path, content, {**arrays, "volume": sizes(content.tri)})
 
 
-def _write_vtk(tri: Delaunay | Subset, path: Path) -> None:
-    save_legacy(to_pyvista(tri), path)
+def _write_vtu(content: InSpace, path: Path) -> None:
+    cells = cell_data(content.tri)
+    tri = content.tri
+    mesh = XmlMesh(tri.points, tri.simplices, cells, content.point_data, telling_of(cells))
+    write_xml(mesh, path, compress=content.compress)
 
 
-def save_xml(writer: vtkXMLWriter, mesh: pyvista.DataSet, path: Path) -> None:
-    """A mesh of PyVista by one of VTK's writers of XML."""
-    writer.SetDataModeToBinary()
-    writer.SetCompressorTypeToZLib()
-    _to_memory(writer, mesh)
-    path.write_bytes(writer.GetOutputString().encode())
+def _write_vtk(content: InSpace, path: Path) -> None:
+    grid = to_pyvista(content.tri)  # says what to install where VTK is missing
+    for name, values in content.point_data.items():
+        grid.point_data[name] = values
+    save_legacy(grid, path)
 
 
 def save_legacy(grid: pyvista.UnstructuredGrid, path: Path) -> None:
@@ -97,27 +114,25 @@ def save_legacy(grid: pyvista.UnstructuredGrid, path: Path) -> None:
 
     writer = vtkUnstructuredGridWriter()
     writer.SetFileTypeToBinary()
-    _to_memory(writer, grid)
-    path.write_bytes(writer.GetOutputStdString())  # type: ignore[arg-type]  # bytes, which VTK calls str
-
-
-def _to_memory(writer: vtkXMLWriter | vtkUnstructuredGridWriter, grid: pyvista.DataSet) -> None:
     writer.SetInputData(grid)
     writer.WriteToOutputStringOn()
     if not writer.Write():
         msg = f"{type(writer).__name__} could not make the file (error {writer.GetErrorCode()})"
         raise OSError(msg)
+    path.write_bytes(writer.GetOutputStdString())  # type: ignore[arg-type]  # bytes, which VTK calls str
 
 
-def _write_gmsh(tri: Delaunay | Subset, path: Path) -> None:
+def _write_gmsh(content: InSpace, path: Path) -> None:
     meshio = optional("meshio")
-    meshio.gmsh.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}), "4.1")
+    mesh = meshio.Mesh(content.tri.points, {"tetra": content.tri.simplices}, point_data=content.point_data)
+    meshio.gmsh.write(path, mesh, "4.1")
 
 
-def _write_medit(tri: Delaunay | Subset, path: Path) -> None:
+def _write_medit(content: InSpace, path: Path) -> None:
     meshio = optional("meshio")
-    reference = {"medit:ref": [np.asarray(tri.iteration)]}
-    meshio.medit.write(path, meshio.Mesh(tri.points, {"tetra": tri.simplices}, cell_data=reference))
+    reference = {"medit:ref": [np.asarray(content.tri.iteration)]}
+    mesh = meshio.Mesh(content.tri.points, {"tetra": content.tri.simplices}, cell_data=reference)
+    meshio.medit.write(path, mesh)
 
 
 def write_ply(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
@@ -152,12 +167,12 @@ def write_stl(points: np.ndarray, facets: np.ndarray, path: Path) -> None:
         file.write(rows.tobytes())
 
 
-WRITERS: dict[str, Callable[[Delaunay | Subset, Path], None]] = {
+WRITERS: dict[str, Callable[[InSpace, Path], None]] = {
     ".npz": _write_npz,
     ".vtu": _write_vtu,
     ".vtk": _write_vtk,
     ".msh": _write_gmsh,
     ".mesh": _write_medit,
-    ".ply": lambda tri, path: write_ply(tri.points, surface(tri), path),
-    ".stl": lambda tri, path: write_stl(tri.points, surface(tri), path),
+    ".ply": lambda content, path: write_ply(content.tri.points, surface(content.tri), path),
+    ".stl": lambda content, path: write_stl(content.tri.points, surface(content.tri), path),
 }

@@ -8,8 +8,10 @@ import pytest
 
 import dt3d
 from dt3d import threaded2d
-from dt3d._cell_data import cell_data, depths, longest_edges, neighbors_of, varies
+from dt3d._cell_data import cell_data, neighbors_of, varies
 from dt3d.files import Mesh, read_mesh, write_mesh
+from dt3d.geometry.depths import depths
+from dt3d.geometry.edge_lengths import longest_edges
 
 RNG = np.random.default_rng(11)
 SETS = {

@@ -178,7 +178,7 @@ def test_files_without_tetrahedra(tmp_path):
 def test_missing_packages_say_how_to_install_them(cube, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyvista", None)
     monkeypatch.setitem(sys.modules, "meshio", None)
-    for extension in (".vtu", ".ply", ".msh"):
+    for extension in (".vtk", ".ply", ".msh"):
         with pytest.raises(ImportError, match=r"pip install 'dt3d\[view\]'"):
             write_mesh(cube, tmp_path / f"a{extension}")
     with pytest.raises(ImportError, match=r"pip install 'dt3d\[view\]'"):
