@@ -26,6 +26,7 @@ app = cyclopts.App(
     "data-parallel algorithm of Teng et al.\n\n"
     "Exit status: 0 done; 1 not a Delaunay triangulation (verify), or one failed (experiment all); "
     "2 bad words, input or files; 70 a fault of dt3d; 130 Ctrl-C; 141 the output was closed.",
+    help_format="plaintext",  # markdown takes longer to load than all else does
     version=dt3d.__version__,
     suppress_keyboard_interrupt=False,
 )

@@ -6,18 +6,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-import numpy as np
 from cyclopts import Parameter
 
 from .._status import one_line
 
 if TYPE_CHECKING:
+    import numpy as np
+
     import scanvec as sv
 
 SPACE_METHODS = ("insertion", "extrapolation")
 
 
-@Parameter(name="*")
+@Parameter(name="*", group="What is run")
 @dataclass(frozen=True)
 class Choice:
     """The options of `dt3d triangulate` that say what is run.
@@ -112,11 +113,15 @@ class Choice:
 
     def make_machine(self) -> sv.Machine | None:
         """The machine that is asked for; None if none is."""
-        import scanvec
-
         if self.processors is not None and self.machine != "simulated":
             msg = "--processors goes with --machine simulated"
             raise ValueError(msg)
         if self.machine == "simulated":
-            return scanvec.Simulated(processors=32 if self.processors is None else self.processors)
-        return scanvec.Device() if self.machine == "device" else None
+            from scanvec import Simulated
+
+            return Simulated(processors=32 if self.processors is None else self.processors)
+        if self.machine == "device":
+            from scanvec import Device
+
+            return Device()
+        return None

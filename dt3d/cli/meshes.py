@@ -5,13 +5,24 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from .._paths import check_apart
-from .._status import NOT_DELAUNAY, Printer, Verdict, one_line
+from .._status import NOT_DELAUNAY, Printer, Verdict
 from .report import say
+from .reporting import Reporting, Speaker
+from .steps import Steps
+from .streams import formats_of, incoming
 
 
-def verify(file: Path) -> None:
+def verify(
+    file: Annotated[Path, Parameter(allow_leading_hyphen=True)],
+    *,
+    format: str | None = None,
+    reporting: Reporting = Reporting(),  # noqa: B008  frozen
+) -> None:
     """Prove with exact arithmetic that the tetrahedra of a mesh are a Delaunay triangulation of its points.
 
     Where a mesh has no tetrahedra, and triangles in the plane z = 0, those are proved. Prints a sentence for
@@ -21,23 +32,37 @@ def verify(file: Path) -> None:
     ----------
     file
         A mesh of tetrahedra, or of triangles in the plane, of either orientation: .vtu .vtk .npz .msh .mesh,
-        and each of them with .gz
+        and each of them with .gz; - is standard input
+    format
+        The format of what comes by - , as an extension: vtu, npz ...
+    reporting
+        What is said of it.
     """
+    from ..reading.guarded import guarded
     from ..reading.plane import PlaneMesh, read_either
 
-    mesh = read_either(file)
-    if isinstance(mesh, PlaneMesh):
-        from ..threaded2d import verify as check_plane
+    speaker = Speaker(reporting)
+    extension = formats_of(format, file).source
+    with Steps(speaker.bars, ["reading", "verifying"], quiet=reporting.quiet) as steps:
+        with steps.step("reading"), incoming(file, extension) as (path, called):
+            mesh = guarded(read_either, path, called)
+        with steps.step("verifying"):
+            if isinstance(mesh, PlaneMesh):
+                from ..threaded2d import verify as check_plane
 
-        outcome = check_plane(mesh.points, mesh.triangles)
-    else:
-        from ..verification import verify as check_space
+                outcome = check_plane(mesh.points, mesh.triangles)
+            else:
+                from ..verification import verify as check_space
 
-        outcome = check_space(mesh.points, mesh.simplices)
+                outcome = check_space(mesh.points, mesh.simplices)
     verdict = "a Delaunay triangulation" if outcome else "NOT a Delaunay triangulation"
-    console = Printer(highlight=False)
-    console.print(str(outcome), markup=False, soft_wrap=True)
-    console.print(f"{one_line(file)}: {verdict}", markup=False, soft_wrap=True)
+    for line in str(outcome).splitlines():
+        speaker.say(line)
+    speaker.say(f"{called}: {verdict}")
+    invariants = [{"what": what, "broken": broken} for what, broken in outcome.invariants]
+    speaker.result(
+        {"file": str(called), "delaunay": bool(outcome), "invariants": invariants, "remarks": outcome.remarks}
+    )
     if not outcome:
         raise Verdict(NOT_DELAUNAY)
 

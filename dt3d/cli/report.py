@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -14,7 +15,6 @@ from .._status import one_line
 if TYPE_CHECKING:
     import scanvec as sv
 
-    from .. import threaded2d
     from ..delaunay import Delaunay
 
 
@@ -26,14 +26,13 @@ def say(console: Console, text: str) -> None:
 class Growth:
     """Prints one line per iteration, as the triangulation grows; to be passed as ``callback``."""
 
-    def __init__(self, console: Console, left: str = "open faces") -> None:
+    def __init__(self, console: Console) -> None:
         self.console = console
-        self.left = left
 
     def __call__(self, progress: Progress) -> None:
         """Print the line of one iteration."""
         if progress.iteration == 1:
-            self.console.print(f"[dim]iteration   tetrahedra {self.left:>12s}   seconds[/]")
+            self.console.print("[dim]iteration   tetrahedra   open faces   seconds[/]")
         self.console.print(
             f"{progress.iteration:9d} {progress.tetrahedra:12,} {progress.remaining:12,} "
             f"{progress.seconds:9.2f}",
@@ -41,32 +40,68 @@ class Growth:
         )
 
 
-def stats_table(tri: Delaunay, title: str) -> Table:
-    """The counts and times of a triangulation."""
-    stats = tri.stats
-    table = _sizes(tri, title, "tetrahedra", "faces")
-    if isinstance(stats, InsertionStatistics):
-        for name in ("walked", "tested", "created"):
-            table.add_row(f"tetrahedra {name} per site", _ratio(getattr(stats, name), len(tri.points)))
-    elif isinstance(stats, Statistics):
+def table_of(
+    tri: Delaunay, title: str, *, details: bool = False, files: Mapping[str, float] | None = None
+) -> Table:
+    """The counts and times of a triangulation.
+
+    Parameters
+    ----------
+    tri : Delaunay
+        In space or in the plane.
+    title : str
+        Above the table.
+    details : bool
+        Also the counts of an insertion, which only its developers need; those of an extrapolation are the
+        paper's, and always there.
+    files : mapping of str to float, optional
+        Seconds of reading, verifying and writing.
+    """
+    stats, n = tri.stats, len(tri.points)
+    table = _sizes(tri, title)
+    if isinstance(stats, Statistics):
+        table.add_row("method", "extrapolation")
         _add_extrapolation(table, stats, len(tri.simplices))
-    table.add_row("inconsistencies", f"{stats.inconsistencies:,}")
-    return _timed(table, stats.seconds)
-
-
-def plane_table(tri: threaded2d.Delaunay, title: str) -> Table:
-    """The counts and times of a triangulation in the plane."""
-    stats = tri.stats
-    table = _sizes(tri, title, "triangles", "edges")
-    table.add_row("method", stats.method)
+        table.add_row("inconsistencies", f"{stats.inconsistencies:,}")
+        return _timed(table, stats.seconds, files or {})
+    counts = {}
+    if isinstance(stats, InsertionStatistics):
+        counts["tetrahedra walked through per site"] = _ratio(stats.walked, n)
+        counts["tetrahedra tested per site"] = _ratio(stats.tested, n)
+        counts["tetrahedra made per site"] = _ratio(stats.created, n)
+        counts["sites put off for another thread"] = f"{stats.deferred:,}"
+        table.add_row("method", "insertion")
+    else:
+        counts["triangles visited per site"] = _ratio(stats.visited, n)
+        counts["edges flipped per site"] = _ratio(stats.flips, n)
+        table.add_row("method", stats.method)
     table.add_row("threads", f"{stats.threads}")
-    table.add_row("triangles visited per site", _ratio(stats.visited, len(tri.points)))
-    table.add_row("edges flipped per site", _ratio(stats.flips, len(tri.points)))
-    return _timed(table, stats.seconds)
+    for name, count in counts.items() if details else ():
+        table.add_row(name, count)
+    return _timed(table, stats.seconds, files or {})
 
 
-def _sizes(tri: Delaunay | threaded2d.Delaunay, title: str, simplices: str, facets: str) -> Table:
+def result_of(tri: Delaunay, files: Mapping[str, float]) -> dict[str, object]:
+    """The same for programs: counts by name, with the names that the classes have."""
+    counts = {
+        name: value
+        for name, value in vars(tri.stats).items()
+        if name != "seconds" and isinstance(value, int | str | tuple)
+    }
+    return {
+        "dimension": tri.ndim,
+        "sites": len(tri.points),
+        "duplicates": len(tri.duplicates),
+        "simplices": len(tri.simplices),
+        "hull_facets": len(tri.convex_hull),
+        "statistics": counts,
+        "seconds": {**files, **tri.stats.seconds},
+    }
+
+
+def _sizes(tri: Delaunay, title: str) -> Table:
     """A table with the numbers of sites and of what they make."""
+    simplices, facets = ("triangles", "edges") if tri.ndim == 2 else ("tetrahedra", "faces")
     table = Table(title=Text(title), show_header=False, title_justify="left")
     table.add_column("what")
     table.add_column("value", justify="right")
@@ -78,11 +113,13 @@ def _sizes(tri: Delaunay | threaded2d.Delaunay, title: str, simplices: str, face
     return table
 
 
-def _timed(table: Table, seconds: dict[str, float]) -> Table:
-    """The table with the seconds of each phase below it."""
+def _timed(table: Table, seconds: Mapping[str, float], files: Mapping[str, float]) -> Table:
+    """The table with the seconds of each phase below it, and those of what is done with files."""
     table.add_section()
     for phase, spent in seconds.items():
         table.add_row(f"seconds: {phase}", f"{spent:.3f}", style="bold" if phase == "total" else None)
+    for step, spent in files.items():
+        table.add_row(f"seconds: {step}", f"{spent:.3f}")
     return table
 
 

@@ -12,7 +12,7 @@ import pytest
 import dt3d
 from dt3d import cli, samples
 from dt3d.cli.all_experiments import QUICK
-from dt3d.cli.report import stats_table
+from dt3d.cli.report import table_of
 from dt3d.files import read_mesh, write_mesh
 
 
@@ -72,9 +72,17 @@ def test_triangulate_inserts_unless_told_otherwise(points, tmp_path, capsys):
     out = capsys.readouterr().out
     tri = dt3d.Delaunay(np.load(points), method="insertion")
     np.testing.assert_array_equal(read_mesh(mesh).simplices, tri.simplices)
-    assert "sites left" in out
+    assert re.search(r"│ method +│ +insertion │", out)
     assert row(out, "tetrahedra") == f"{len(tri.simplices):,}"
+    assert "per site" not in out
+    assert (
+        cli.main(["triangulate", str(points), "-o", str(mesh), "--details", "--verify", "--threads", "1"])
+        == 0
+    )
+    out = capsys.readouterr().out
+    assert "verified: a Delaunay triangulation\n" in out
     assert row(out, "tetrahedra tested per site") == f"{tri.stats.tested / 61:.2f}"
+    assert float(row(out, "seconds: verifying")) >= 0
 
 
 def test_simulated_machine_prints_its_ledger(points, tmp_path, capsys):
@@ -256,7 +264,7 @@ def test_no_numbers_are_divided_by_nothing():
         ledger=None,
     )
     arrays = dict.fromkeys(["points", "simplices", "convex_hull", "duplicates"], ())
-    table = stats_table(SimpleNamespace(**arrays, stats=stats), "nothing")
+    table = table_of(SimpleNamespace(**arrays, stats=stats, ndim=3), "nothing")
     assert list(table.columns[1].cells).count("-") == 2
 
 
