@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from .._status import Printer
 from .choice import Choice
 from .report import say, stats_table
@@ -18,8 +20,10 @@ def demo(*, out: Path = Path("out")) -> None:
     out
         The folder for both files; made if it is not there.
     """
+    from .._scene import Choice as Shown
+    from .._space_picture import Panel, draw_picture
     from ..files import check_mesh_path, write_mesh
-    from ..plot import View, check_picture_path, draw
+    from ..plot import check_picture_path
     from ..samples import mtor
 
     out.mkdir(parents=True, exist_ok=True)
@@ -32,9 +36,19 @@ def demo(*, out: Path = Path("out")) -> None:
     console.print(stats_table(tri, "mTOR-mLST8, PDB entry 4JSV"))
 
     write_mesh(tri, out / "mtor.vtu")
-    views = [
-        View("all tetrahedra, cut open", shrink=0.85),
-        View("those with edges up to 6 Å: the proteins", shrink=0.9, cut=False, longest=6.0),
+    # longer than some bonds lies nothing within a protein: voids, the gap, and what is between it and the hull
+    panels = [
+        Panel(
+            Shown(scalars="longest_edge", longest=np.inf, cut=0.5),
+            "All tetrahedra, cut open",
+            "longest edge in Å: short in the proteins, long in what is around them",
+        ),
+        Panel(
+            Shown(scalars="depth", longest=6.0, cut=0.0),
+            "Those with edges up to 6 Å: the proteins",
+            "depth: facets to the hull; it is greatest in the clefts",
+        ),
     ]
-    draw(tri, out / "mtor.png", views)
+    headline = f"Delaunay triangulation of {len(points):,} atoms: two mTOR-mLST8 complexes, PDB entry 4JSV"
+    draw_picture(tri, out / "mtor.png", panels, headline)
     say(console, f"wrote {out / 'mtor.vtu'} (for dt3d view, ParaView, PyVista) and {out / 'mtor.png'}")

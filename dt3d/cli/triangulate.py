@@ -43,13 +43,14 @@ def triangulate(
     choice
         What is run.
     picture
-        Also draw a picture: .png .pdf .svg .jpg
+        Also draw a picture: .png .jpg, or .pdf .svg, which matplotlib paints
     force
         Let the mesh replace the very file that the points are read from. Other files are replaced anyway.
     """
     from .._mesh_plane import check_plane_path, draw_plane, write_plane_mesh
+    from .._space_picture import draw_picture
     from ..files import check_mesh_path, read_points, write_mesh
-    from ..plot import check_picture_path, draw
+    from ..plot import check_picture_path
 
     # what cannot end well does not start
     choice.check_output(output)
@@ -80,7 +81,7 @@ def triangulate(
             console.print(ledger_table(machine.ledger))
         write_mesh(tri, output)
         if picture is not None:
-            draw(tri, picture)
+            draw_picture(tri, picture)
     say(console, f"wrote {output}" + (f" and {picture}" if picture is not None else ""))
 
 

@@ -1,0 +1,274 @@
+"""Pictures of triangulations in files: rendered by PyVista, painted by matplotlib where that cannot be.
+
+Vector formats are painted: what OpenGL renders are pixels.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from ._cell_data import varies
+from ._display import renders
+from ._optional import optional
+from ._paths import written_aside
+from ._scene import Choice, Scene, color_range, explained, eye, is_wide, title_of
+from ._space_plot import quiet
+from .plot import View, check_picture_path, draw
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from ._mesh import Tetrahedra
+
+VECTORS = (".pdf", ".svg")
+WIDTH, HEIGHT = 1400, 1200  # pixels of a panel
+BAR = 0.16  # the share of a panel's width that the colour bar takes
+HEAD, FOOT = 0.08, 0.06  # of its height: the title, and the line that says what the colours are
+HEADLINE = 80  # pixels above the panels
+HALF_ANGLE = np.radians(12.0)  # of the view: somewhat longer than a normal lens
+EDGES = 0.35  # how dark edges are
+MOST_EDGES = 40_000  # faces; more are all edge, and their light and shade says enough
+INK = "#202020"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """What one part of a picture shows.
+
+    Attributes
+    ----------
+    choice : Choice
+        What is shown.
+    title : str
+        A line above it; by default the numbers of sites and simplices.
+    note : str
+        A line below; by default what the colours are.
+    """
+
+    choice: Choice = Choice()
+    title: str = ""
+    note: str = ""
+
+
+def draw_picture(
+    tri: Tetrahedra, path: str | Path, panels: Sequence[Panel] = (Panel(),), headline: str = ""
+) -> None:
+    """Write a picture of a triangulation, one panel beside the other.
+
+    Where OpenGL or PyVista is missing, the picture is painted by matplotlib, and the logger `dt3d` says so.
+
+    Parameters
+    ----------
+    tri : Delaunay, Subset or Mesh
+        What is shown.
+    path : str or Path
+        .png or .jpg, which are rendered; .pdf or .svg, which are painted: for up to some thousand tetrahedra.
+    panels : sequence of Panel
+        What is shown in each.
+    headline : str
+        A line above all panels.
+
+    Raises
+    ------
+    ValueError
+        For another extension, and as `Scene.chosen` says.
+    OSError
+        If the file cannot be written.
+    ImportError
+        If matplotlib is missing, too.
+    """
+    path = check_picture_path(path)
+    scene = Scene(tri)
+    chosen = [replace(panel, choice=scene.chosen(panel.choice)) for panel in panels]
+    vector = path.suffix.lower() in VECTORS
+    why = None if vector else _missing()
+    if vector or why:
+        if why:
+            logging.getLogger("dt3d").warning("%s, so the picture is painted by matplotlib", why)
+        _paint(scene, tri, path, chosen)
+        return
+    pv = optional("pyvista", "a picture")
+    with quiet(pv):
+        plotter = _plotter(pv, len(chosen), headline)
+        for column, panel in enumerate(chosen):
+            plotter.subplot(1 if headline else 0, column)
+            render(plotter, scene, panel)
+        with written_aside(path) as aside:
+            plotter.screenshot(aside)
+        plotter.close()
+
+
+def _plotter(
+    pv: Any,  # PyVista is loaded when it is needed
+    columns: int,
+    headline: str,
+) -> pyvista.Plotter:
+    """A plotter with a part for each panel, and above them the headline."""
+    if not headline:
+        size = (WIDTH * columns, HEIGHT)
+        return cast(
+            "pyvista.Plotter", pv.Plotter(off_screen=True, shape=(1, columns), window_size=size, border=False)
+        )
+    plotter: pyvista.Plotter = pv.Plotter(
+        off_screen=True,
+        shape=(2, columns),
+        row_weights=[HEADLINE, HEIGHT],
+        groups=[(0, np.s_[:])],
+        window_size=(WIDTH * columns, HEIGHT + HEADLINE),
+        border=False,
+    )
+    plotter.subplot(0, 0)
+    plotter.set_background("white", all_renderers=False)
+    _write(plotter, headline, (0.03 / columns, 0.1), 30)
+    return plotter
+
+
+def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
+    """Put what a panel shows on the plotter's active part."""
+    choice = panel.choice
+    scalars = cast(str, choice.scalars)
+    mesh = surface(scene, choice)
+    values = scene.data[scalars]
+    look = coloured(scalars, values)
+    many = mesh.n_cells > MOST_EDGES
+    plotter.set_background("white", all_renderers=False)
+    plotter.add_mesh(
+        mesh,
+        show_edges=not many,
+        edge_color=INK,
+        edge_opacity=EDGES,
+        ambient=0.36,
+        diffuse=0.74,
+        show_scalar_bar=False,
+        **look,
+    )
+    if "scalars" in look:
+        bar = plotter.add_scalar_bar(
+            title=f"{title_of(scalars)}\n",
+            mapper=plotter.mapper,
+            vertical=True,
+            width=0.05,
+            height=0.55,
+            position_x=1 - 0.85 * BAR,
+            position_y=0.2,
+            color=INK,
+            title_font_size=34,
+            label_font_size=30,
+            n_labels=0 if "annotations" in look else 5,
+            fmt="%.3g",
+        )
+        bar.SetUnconstrainedFontSize(True)
+        _write(plotter, panel.note or explained(scalars), (0.03, 0.2 * FOOT), 20)
+    kind = "triangles" if scene.plane else "tetrahedra"
+    sites = len(np.unique(scene.simplices))
+    title = panel.title or f"{sites:,} sites, {len(scene.simplices):,} {kind}" + left_out(choice)
+    _write(plotter, title, (0.03, 1 - 0.75 * HEAD), 26)
+    look_at(plotter, mesh, choice)
+    plotter.enable_anti_aliasing("ssaa")
+    if not scene.plane:
+        plotter.enable_ssao(radius=mesh.length / 25, bias=mesh.length / 1500, kernel_size=64)
+
+
+def surface(scene: Scene, choice: Choice) -> pyvista.PolyData:
+    """The faces that a choice shows, of their own points, with the data of all cells."""
+    pv = optional("pyvista", "a picture")
+    faces, owners = scene.faces(scene.shown(choice))
+    used, numbers = np.unique(faces, return_inverse=True)
+    mesh: pyvista.PolyData = pv.PolyData.from_regular_faces(scene.points[used], numbers.reshape(-1, 3))
+    for name, values in scene.data.items():
+        mesh.cell_data[name] = values[owners]
+    return mesh
+
+
+def coloured(name: str, values: np.ndarray) -> dict[str, Any]:
+    """Keywords of PyVista's `add_mesh` that colour by some data; one colour where they do not vary."""
+    if not varies(values):
+        return {"color": "#9ecae1"}
+    low, high = color_range(values)
+    look: dict[str, Any] = {"scalars": name, "cmap": "viridis", "clim": (low, high), "preference": "cell"}
+    if is_wide(values):
+        look["log_scale"] = True
+    elif values.dtype.kind in "iu" and high - low < 256:
+        count = int(high - low) + 1
+        marked = range(int(low), int(high) + 1, -(-count // 8))
+        look |= {"n_colors": count, "clim": (low - 0.5, high + 0.5)}
+        look["annotations"] = {float(k): str(k) for k in marked}
+    return look
+
+
+def left_out(choice: Choice) -> str:
+    """What a choice leaves out, as the end of a sentence."""
+    words = ", cut open" if choice.cut else ""
+    if choice.longest is not None and np.isfinite(choice.longest):
+        words += f", edges up to {choice.longest:.3g}"
+    return words + (f", up to iteration {choice.upto}" if choice.upto is not None else "")
+
+
+def look_at(plotter: pyvista.Plotter, mesh: pyvista.PolyData, choice: Choice) -> None:
+    """Put the eye where the mesh just fits between the title, the line below and the colour bar."""
+    width, height = plotter.renderer.GetSize()
+    rows = eye(choice)
+    seen = np.asarray(mesh.points, np.float64) @ rows.T  # right, up, towards the eye
+    tall, wide = np.tan(HALF_ANGLE), np.tan(HALF_ANGLE) * width / height
+    fill = np.array([wide * (0.97 - BAR), tall * (1 - HEAD - FOOT)])
+    middle = (seen.min(axis=0) + seen.max(axis=0)) / 2
+    for _ in range(5):  # nearer points are larger, so the middle of the picture is not that of the mesh
+        offset = seen - middle
+        distance = (np.abs(offset[:, :2]) / fill + offset[:, 2:]).max()
+        flat = offset[:, :2] / (distance - offset[:, 2:])
+        middle[:2] += distance * (flat.min(axis=0) + flat.max(axis=0)) / 2
+    focus = middle @ rows
+    camera = plotter.camera
+    plotter.camera_position = [
+        tuple(focus + rows[2] * max(distance, 1e-300)),
+        tuple(focus),
+        tuple(rows[1]),
+    ]
+    camera.SetViewAngle(2 * np.degrees(HALF_ANGLE))
+    camera.SetWindowCenter(BAR - 0.03, HEAD - FOOT)
+    plotter.renderer.ResetCameraClippingRange()
+
+
+def _write(plotter: pyvista.Plotter, text: str, place: tuple[float, float], size: int) -> None:
+    plotter.add_text(text, position=place, viewport=True, font_size=size, color=INK)
+
+
+def _missing() -> str | None:
+    """Why nothing can be rendered; None if it can."""
+    if importlib.util.find_spec("pyvista") is None:
+        return "PyVista is not installed"
+    return None if renders() else "VTK cannot render here (there is no OpenGL library)"
+
+
+def _paint(scene: Scene, tri: Tetrahedra, path: Path, panels: Sequence[Panel]) -> None:
+    """The same by matplotlib, coloured by iteration or depth."""
+    if scene.plane:
+        from ._mesh_plane import draw_plane
+
+        draw_plane(cast(Any, tri), path)
+        return
+    views = []
+    for panel in panels:
+        choice = panel.choice
+        assert choice.azimuth is not None
+        assert choice.elevation is not None
+        longest = choice.longest if choice.longest is not None and np.isfinite(choice.longest) else None
+        views.append(
+            View(
+                panel.title,
+                shrink=0.85,
+                cut=bool(choice.cut),
+                longest=longest,
+                upto=choice.upto,
+                azimuth=choice.azimuth,
+                elevation=choice.elevation,
+            )
+        )
+    draw(tri, path, views)
