@@ -187,11 +187,11 @@ def cut_direction(choice: Choice) -> np.ndarray:
 
 
 def is_wide(values: np.ndarray) -> bool:
-    """Whether colours show logarithms: values are positive, and the ends of the colours differ eightfold."""
+    """Whether colours show logarithms: values are positive, and the ends of the colours differ fivefold."""
     if values.dtype.kind in "iu" or not (values > 0).all():
         return False
     low, high = color_range(values)
-    return high > 8 * low
+    return high > 5 * low
 
 
 def color_range(values: np.ndarray) -> tuple[float, float]:

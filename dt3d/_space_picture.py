@@ -17,6 +17,7 @@ import numpy as np
 from ._cell_data import varies
 from ._display import renders
 from ._optional import optional
+from ._output import new_figure, save_figure
 from ._paths import written_aside
 from ._scene import Choice, Scene, color_range, explained, eye, is_wide, title_of
 from ._space_plot import quiet
@@ -25,6 +26,7 @@ from .plot import View, check_picture_path, draw
 if TYPE_CHECKING:
     import pyvista
 
+    from ._cell_data import Simplices
     from ._mesh import Tetrahedra
 
 VECTORS = (".pdf", ".svg")
@@ -58,7 +60,7 @@ class Panel:
 
 
 def draw_picture(
-    tri: Tetrahedra, path: str | Path, panels: Sequence[Panel] = (Panel(),), headline: str = ""
+    tri: Tetrahedra | Simplices, path: str | Path, panels: Sequence[Panel] = (Panel(),), headline: str = ""
 ) -> None:
     """Write a picture of a triangulation, one panel beside the other.
 
@@ -211,13 +213,23 @@ def left_out(choice: Choice) -> str:
     return words + (f", up to iteration {choice.upto}" if choice.upto is not None else "")
 
 
-def look_at(plotter: pyvista.Plotter, mesh: pyvista.PolyData, choice: Choice) -> None:
-    """Put the eye where the mesh just fits between the title, the line below and the colour bar."""
+def look_at(
+    plotter: pyvista.Plotter, mesh: pyvista.PolyData, choice: Choice, head: float = HEAD, foot: float = FOOT
+) -> None:
+    """Put the eye where the mesh just fits beside the colour bar, and between lines above and below.
+
+    Parameters
+    ----------
+    plotter, mesh, choice
+        Where it is shown, what, and from where.
+    head, foot : float
+        What the lines take, as shares of the height.
+    """
     width, height = plotter.renderer.GetSize()
     rows = eye(choice)
     seen = np.asarray(mesh.points, np.float64) @ rows.T  # right, up, towards the eye
     tall, wide = np.tan(HALF_ANGLE), np.tan(HALF_ANGLE) * width / height
-    fill = np.array([wide * (0.97 - BAR), tall * (1 - HEAD - FOOT)])
+    fill = np.array([wide * (0.97 - BAR), tall * (1 - head - foot)])
     middle = (seen.min(axis=0) + seen.max(axis=0)) / 2
     for _ in range(5):  # nearer points are larger, so the middle of the picture is not that of the mesh
         offset = seen - middle
@@ -232,7 +244,7 @@ def look_at(plotter: pyvista.Plotter, mesh: pyvista.PolyData, choice: Choice) ->
         tuple(rows[1]),
     ]
     camera.SetViewAngle(2 * np.degrees(HALF_ANGLE))
-    camera.SetWindowCenter(BAR - 0.03, HEAD - FOOT)
+    camera.SetWindowCenter(BAR - 0.03, head - foot)
     plotter.renderer.ResetCameraClippingRange()
 
 
@@ -247,12 +259,10 @@ def _missing() -> str | None:
     return None if renders() else "VTK cannot render here (there is no OpenGL library)"
 
 
-def _paint(scene: Scene, tri: Tetrahedra, path: Path, panels: Sequence[Panel]) -> None:
+def _paint(scene: Scene, tri: Tetrahedra | Simplices, path: Path, panels: Sequence[Panel]) -> None:
     """The same by matplotlib, coloured by iteration or depth."""
     if scene.plane:
-        from ._mesh_plane import draw_plane
-
-        draw_plane(cast(Any, tri), path)
+        _paint_plane(scene, path)
         return
     views = []
     for panel in panels:
@@ -271,4 +281,18 @@ def _paint(scene: Scene, tri: Tetrahedra, path: Path, panels: Sequence[Panel]) -
                 elevation=choice.elevation,
             )
         )
-    draw(tri, path, views)
+    draw(cast("Tetrahedra", tri), path, views)
+
+
+def _paint_plane(scene: Scene, path: Path) -> None:
+    """Triangles, coloured by depth."""
+    figure = new_figure(6, 6)
+    ax = figure.add_subplot()
+    patches = optional("matplotlib.collections").PolyCollection(
+        scene.points[scene.simplices][:, :, :2], array=scene.data["depth"], edgecolors="white", linewidths=0.2
+    )
+    ax.add_collection(patches)
+    ax.autoscale_view()
+    ax.set_aspect("equal")
+    figure.colorbar(patches, label="depth")
+    save_figure(figure, path, dpi=200)
