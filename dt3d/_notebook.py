@@ -46,7 +46,10 @@ def _rows(tri: Triangulation) -> Iterator[tuple[str, str]]:
     yield "triangles" if tri.ndim == 2 else "tetrahedra", f"{len(tri.simplices):,}"
     stats = getattr(tri, "stats", None)
     border = np.count_nonzero(tri.neighbors == OUTSIDE)
-    yield ("edges" if tri.ndim == 2 else "facets") + (" of the hull" if stats else " of the border"), f"{border:,}"
+    yield (
+        ("edges" if tri.ndim == 2 else "facets") + (" of the hull" if stats else " of the border"),
+        f"{border:,}",
+    )
     if len(tri.duplicates):
         yield "duplicates", f"{len(tri.duplicates):,}"
     if stats is not None:
@@ -64,9 +67,11 @@ def _drawing(tri: Triangulation) -> str:
     if tri.ndim == 2:
         if len(tri.simplices) > MOST_FACES:
             return ""
-        corners, owners = tri.points[tri.simplices], np.arange(len(tri.simplices))
-        return _svg(corners, depths(tri.neighbors)[owners], np.ones(len(corners)))
-    corners = tri.points[tri.simplices] @ camera(View()).T  # right, up, towards the eye
+        scaled = tri.points / (np.abs(tri.points).max() or 1.0)
+        return _svg(scaled[tri.simplices], depths(tri.neighbors), np.ones(len(tri.simplices)))
+    # to the right, up, towards the eye; scaled first, since coordinates may be as great as float64 has them
+    scaled = tri.points / (np.abs(tri.points).max() or 1.0)
+    corners = scaled[tri.simplices] @ camera(View()).T
     along = corners.mean(axis=1) @ CUT
     shown = along <= (along.min() + along.max()) / 2
     rows = np.flatnonzero(shown)

@@ -5,7 +5,8 @@ no controls, since sliders call Python. A page with the mesh itself can cut and 
 Python, no server and no network, which its security policy forbids. Colours are bytes and the arrays packed,
 so 150,000 tetrahedra are 5 MB.
 
-``#cut=0.3&scalar=volume&longest=6&upto=2&azimuth=80&elevation=20&edges=0`` behind the address sets the controls.
+``#cut=0.3&scalar=volume&longest=6&upto=2&azimuth=80&elevation=20&edges=0`` behind the address sets the
+controls.
 """
 
 from __future__ import annotations
@@ -85,7 +86,10 @@ def write_page(scene: Scene, choice: Choice, path: str | Path, title: str = "dt3
         text = text.replace(name, value)
     with written_aside(path) as aside:
         aside.write_text(text, encoding="utf-8")
-    return [*([left] if left else []), f"wrote {path} ({len(text) / 1e6:.1f} MB, for any browser, without a network)"]
+    return [
+        *([left] if left else []),
+        f"wrote {path} ({len(text) / 1e6:.1f} MB, for any browser, without a network)",
+    ]
 
 
 def _rows(scene: Scene) -> np.ndarray:
@@ -130,7 +134,8 @@ def _levels(values: np.ndarray) -> np.ndarray:
     within = np.clip(np.nan_to_num(values, nan=high), low, high)
     if is_wide(values):
         within, low, high = np.log(within), np.log(low), np.log(high)
-    return np.round(255 * ((within - low) / (high - low))).astype(np.uint8)
+    levels: np.ndarray = np.round(255 * ((within - low) / (high - low))).astype(np.uint8)
+    return levels
 
 
 def _labels(values: np.ndarray) -> list[str]:
@@ -201,6 +206,5 @@ def _colors() -> bytes:
 
 # viridis at 17 places, so that a page needs no matplotlib
 VIRIDIS = (
-    "44015448186a472d7b4240863b528b33638d2c728e26828e21918c"
-    "1fa08828ae803fbc735ec96284d44baddc30d8e219fde725"
+    "44015448186a472d7b4240863b528b33638d2c728e26828e21918c1fa08828ae803fbc735ec96284d44baddc30d8e219fde725"
 )

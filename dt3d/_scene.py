@@ -1,12 +1,12 @@
-"""What is shown of a triangulation in a picture, a window and a page: which simplices, and which of their faces.
+"""What is shown of a triangulation in pictures, windows and pages: which simplices, which of their faces.
 
 Only faces on the border of what is shown are drawn: the hull, the cut, and what peeling has laid bare. So a
 million tetrahedra are some ten thousand triangles, and nothing that can be seen is missing.
 
 Where hardly anything of the hull belongs to the set, as for points on surfaces and in clusters, its long
 tetrahedra hide all. So by default `longest` is five medians of the longest edges if tetrahedra with a longer
-one fill more than half of the hull; nothing is cut then. Their share of the volume is 1 % for points that fill
-a box, 25 % for normal ones, 43 % for a protein; it is 72 % and more for a terrain, clusters, a sphere, a scan.
+one fill more than half of the hull; nothing is cut then. Their share of the volume is 1 % for points that
+fill a box, 25 % for normal ones, 43 % for a protein; 72 % and more for a terrain, clusters, a sphere, a scan.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 MEDIANS = 5.0  # what is longer is peeled where it fills more than
 MOST_EMPTY = 0.5  # of the volume
 ORDER = ("depth", "longest_edge", "volume", "area", "circumradius", "iteration", "thread")
-UNCUT_IF_PLANE = View(azimuth=-90.0, elevation=90.0)  # x to the right, y up
+FROM_ABOVE = View(azimuth=-90.0, elevation=90.0)  # x to the right, y up
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class Scene:
                 f"{np.median(edges):.6g} in the median, and {edges.max():.6g} at most"
             )
             raise ValueError(msg)
-        view = UNCUT_IF_PLANE if self.plane else View()
+        view = FROM_ABOVE if self.plane else View()
         azimuth = view.azimuth if choice.azimuth is None else choice.azimuth
         elevation = view.elevation if choice.elevation is None else choice.elevation
         if not (np.isfinite(azimuth) and np.isfinite(elevation)):
@@ -163,7 +163,7 @@ class Scene:
         return kept
 
     def faces(self, shown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The triangles that are drawn, int (f, 3), counter-clockwise from outside, and whose they are (f,)."""
+        """The triangles that are drawn, int (f, 3), counter-clockwise from outside, and whose they are."""
         if self.plane:
             rows = np.flatnonzero(shown)
             return self.simplices[rows], rows

@@ -38,6 +38,7 @@ HALF_ANGLE = np.radians(12.0)  # of the view: somewhat longer than a normal lens
 EDGES = 0.35  # how dark edges are
 MOST_EDGES = 40_000  # faces; more are all edge, and their light and shade says enough
 INK = "#202020"
+EVERYTHING = Choice()
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Panel:
         A line below; by default what the colours are.
     """
 
-    choice: Choice = Choice()
+    choice: Choice = EVERYTHING
     title: str = ""
     note: str = ""
 
@@ -127,7 +128,7 @@ def _plotter(
         border=False,
     )
     plotter.subplot(0, 0)
-    plotter.set_background("white", all_renderers=False)
+    whiten(plotter)
     _write(plotter, headline, (0.03 / columns, 0.1), 30)
     return plotter
 
@@ -137,36 +138,11 @@ def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
     choice = panel.choice
     scalars = cast(str, choice.scalars)
     mesh = surface(scene, choice)
-    values = scene.data[scalars]
-    look = coloured(scalars, values)
-    many = mesh.n_cells > MOST_EDGES
-    plotter.set_background("white", all_renderers=False)
-    plotter.add_mesh(
-        mesh,
-        show_edges=not many,
-        edge_color=INK,
-        edge_opacity=EDGES,
-        ambient=0.36,
-        diffuse=0.74,
-        show_scalar_bar=False,
-        **look,
-    )
+    look = coloured(scalars, scene.data[scalars])
+    whiten(plotter)
+    lay(plotter, mesh, look, edges=mesh.n_cells <= MOST_EDGES)
     if "scalars" in look:
-        bar = plotter.add_scalar_bar(
-            title=f"{title_of(scalars)}\n",
-            mapper=plotter.mapper,
-            vertical=True,
-            width=0.05,
-            height=0.55,
-            position_x=1 - 0.85 * BAR,
-            position_y=0.2,
-            color=INK,
-            title_font_size=34,
-            label_font_size=30,
-            n_labels=0 if "annotations" in look else 5,
-            fmt="%.3g",
-        )
-        bar.SetUnconstrainedFontSize(True)
+        add_bar(plotter, scalars, look, 34)
         _write(plotter, panel.note or explained(scalars), (0.03, 0.2 * FOOT), 20)
     kind = "triangles" if scene.plane else "tetrahedra"
     sites = len(np.unique(scene.simplices))
@@ -175,7 +151,50 @@ def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
     look_at(plotter, mesh, choice)
     plotter.enable_anti_aliasing("ssaa")
     if not scene.plane:
-        plotter.enable_ssao(radius=mesh.length / 25, bias=mesh.length / 1500, kernel_size=64)
+        # shade where little light gets in: depth is seen without edges, too
+        cast(Any, plotter).enable_ssao(radius=mesh.length / 25, bias=mesh.length / 1500, kernel_size=64)
+
+
+def whiten(plotter: pyvista.Plotter) -> None:
+    """A white ground for the plotter's active part."""
+    cast(Any, plotter).set_background("white", all_renderers=False)  # decorated, a function to mypy
+
+
+def lay(plotter: pyvista.Plotter, mesh: pyvista.PolyData, look: dict[str, Any], *, edges: bool) -> None:
+    """Put faces on a plotter, in place of those that were there."""
+    plotter.add_mesh(
+        mesh,
+        name="simplices",
+        show_edges=edges,
+        edge_color=INK,
+        edge_opacity=EDGES,
+        ambient=0.36,
+        diffuse=0.74,
+        show_scalar_bar=False,
+        reset_camera=False,
+        render=False,
+        **look,
+    )
+
+
+def add_bar(plotter: pyvista.Plotter, name: str, look: dict[str, Any], size: int) -> None:
+    """What the colours of some data mean, in letters of a size in pixels."""
+    bar = cast(Any, plotter).add_scalar_bar(  # decorated, a function to mypy
+        title=f"{title_of(name)}\n",
+        mapper=plotter.mapper,
+        vertical=True,
+        width=0.05,
+        height=0.55,
+        position_x=1 - 0.85 * BAR,
+        position_y=0.2,
+        color=INK,
+        title_font_size=size,
+        label_font_size=size - 3,
+        n_labels=0 if "annotations" in look else 5,
+        fmt="%.3g",
+        render=False,
+    )
+    bar.SetUnconstrainedFontSize(True)
 
 
 def surface(scene: Scene, choice: Choice) -> pyvista.PolyData:
@@ -249,7 +268,7 @@ def look_at(
 
 
 def _write(plotter: pyvista.Plotter, text: str, place: tuple[float, float], size: int) -> None:
-    plotter.add_text(text, position=place, viewport=True, font_size=size, color=INK)
+    cast(Any, plotter).add_text(text, position=place, viewport=True, font_size=size, color=INK)
 
 
 def _missing() -> str | None:

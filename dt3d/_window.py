@@ -1,7 +1,7 @@
 """A window on a triangulation: the cut faces the eye, sliders say what is shown, keys what colours mean.
 
-VTK's own loop of events runs in compiled code, where Python cannot answer Ctrl-C. So the events are processed in
-a loop of Python's, and what goes wrong in a callback, which VTK would print and forget, ends the loop.
+VTK's own loop of events runs in compiled code, where Python cannot answer Ctrl-C. So the events are processed
+in a loop of Python's, and what goes wrong in a callback, which VTK would print and forget, ends the loop.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ._cell_data import varies
 from ._display import check_screen
 from ._optional import optional
 from ._scene import Choice, Scene, explained, title_of
-from ._space_picture import EDGES, INK, coloured, look_at, surface
+from ._space_picture import INK, add_bar, coloured, lay, look_at, surface, whiten
 from ._space_plot import quiet
 
 if TYPE_CHECKING:
@@ -50,7 +50,9 @@ class Window:
         If PyVista is not installed.
     """
 
-    def __init__(self, scene: Scene, choice: Choice, title: str = "dt3d", *, off_screen: bool = False) -> None:
+    def __init__(
+        self, scene: Scene, choice: Choice, title: str = "dt3d", *, off_screen: bool = False
+    ) -> None:
         pv = optional("pyvista", "a window")
         self.scene, self.choice = scene, choice
         self.error: BaseException | None = None
@@ -59,7 +61,7 @@ class Window:
         self.names = [name for name, values in scene.data.items() if varies(values)]
         with quiet(pv):
             self.plotter: pyvista.Plotter = pv.Plotter(title=title, window_size=SIZE, off_screen=off_screen)
-        self.plotter.set_background("white")
+        whiten(self.plotter)
         self.mesh = surface(scene, choice)
         self._colour()
         self._add_sliders()
@@ -79,7 +81,7 @@ class Window:
             plotter.show(interactive_update=True, auto_close=False)
             self._listen()
             while self.open:
-                plotter.iren.process_events()
+                cast(Any, plotter.iren).process_events()
                 if self.error is not None:
                     raise self.error
                 time.sleep(PAUSE)
@@ -100,7 +102,7 @@ class Window:
         self.plotter.render()
 
     def press(self, key: str) -> None:
-        """Do what a key stands for: a number chooses the colours, c turns the cut to the eye, e edges, q ends."""
+        """Do what a key stands for: a number colours, c turns the cut, e hides edges, r goes back, q ends."""
         if key.lower() in ("q", "escape"):
             self.open = False
         elif key == "c":
@@ -123,35 +125,9 @@ class Window:
         look = coloured(name, self.scene.data[name])
         for title in list(self.plotter.scalar_bars.keys()):
             self.plotter.remove_scalar_bar(title, render=False)
-        self.plotter.add_mesh(
-            self.mesh,
-            name="simplices",
-            show_edges=self.edges,
-            edge_color=INK,
-            edge_opacity=EDGES,
-            ambient=0.36,
-            diffuse=0.74,
-            show_scalar_bar=False,
-            reset_camera=False,
-            render=False,
-            **look,
-        )
+        lay(self.plotter, self.mesh, look, edges=self.edges)
         if "scalars" in look:
-            self.plotter.add_scalar_bar(
-                title=f"{title_of(name)}\n",
-                mapper=self.plotter.mapper,
-                vertical=True,
-                width=0.05,
-                height=0.5,
-                position_x=0.88,
-                position_y=0.25,
-                color=INK,
-                title_font_size=24,
-                label_font_size=22,
-                n_labels=0 if "annotations" in look else 5,
-                fmt="%.3g",
-                render=False,
-            )
+            add_bar(self.plotter, name, look, 24)
         self._describe()
 
     def _describe(self) -> None:
@@ -163,7 +139,7 @@ class Window:
         how = "drag the mesh to turn it, the sliders to cut and peel it; wheel: zoom; shift and drag: move\n"
         how += f"keys: {keys}, c cut towards the eye, e edges, r back, q end"
         for name, text, height, size in (("count", count, 0.945, 12), ("how", how, 0.885, 9)):
-            self.plotter.add_text(
+            cast(Any, self.plotter).add_text(
                 text,
                 position=(0.02, height),
                 name=name,
@@ -189,7 +165,7 @@ class Window:
             rows.append(("up to iteration", lambda x: self.show(upto=round(x)), (1.0, float(last)), upto))
         for column, (title, act, bounds, start) in enumerate(rows):
             left = FIRST + EACH * column
-            slider = self.plotter.add_slider_widget(
+            slider = cast(Any, self.plotter).add_slider_widget(
                 self._guarded(act),
                 list(bounds),
                 value=start,
@@ -220,7 +196,7 @@ class Window:
 
     def _listen(self) -> None:
         """Take over the keys, of which VTK and PyVista have others, and the end."""
-        interactor = self.plotter.iren.interactor
+        interactor = cast(Any, self.plotter.iren).interactor
         pressed = self._guarded(lambda: self.press(interactor.GetKeySym() or ""))
         interactor.AddObserver("KeyPressEvent", lambda *_: pressed())
         interactor.AddObserver("ExitEvent", lambda *_: setattr(self, "open", False))

@@ -198,7 +198,7 @@ def check_picture_path(path: str | Path) -> Path:
 
 @dataclass(frozen=True)
 class _Levels:
-    """The integers that colours show: their name, one for each tetrahedron, the least, how many there may be."""
+    """The integers that colours show: their name, that of each tetrahedron, the least, how many there are."""
 
     name: str
     values: np.ndarray

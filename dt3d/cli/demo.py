@@ -36,7 +36,7 @@ def demo(*, out: Path = Path("out")) -> None:
     console.print(stats_table(tri, "mTOR-mLST8, PDB entry 4JSV"))
 
     write_mesh(tri, out / "mtor.vtu")
-    # longer than some bonds lies nothing within a protein: voids, the gap, and what is between it and the hull
+    # edges longer than some bonds lead through what is no protein: voids, the gap, the room below the hull
     panels = [
         Panel(
             Shown(scalars="longest_edge", longest=np.inf, cut=0.5),
