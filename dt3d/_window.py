@@ -58,6 +58,7 @@ class Window:
         self.error: BaseException | None = None
         self.open = True
         self.edges = True
+        self.sliders: dict[str, Any] = {}  # VTK's, by their titles
         self.names = [name for name, values in scene.data.items() if varies(values)]
         with quiet(pv):
             self.plotter: pyvista.Plotter = pv.Plotter(title=title, window_size=SIZE, off_screen=off_screen)
@@ -175,14 +176,14 @@ class Window:
                 fmt="%.0f" if title == "up to iteration" else "%.2f",
                 **SLIDER,
             )
+            self.sliders[title] = slider
             shape = slider.GetRepresentation()
             shape.SetSliderWidth(0.02)
             shape.SetSliderLength(0.012)
             shape.SetTubeWidth(0.006)
             shape.SetLabelHeight(0.018)
             if title == "longest edge":
-                self.longest = slider.GetRepresentation()
-                self.longest.SetLabelFormat(f"{longest:.3g}")
+                shape.SetLabelFormat(f"{longest:.3g}")
 
     def _peel(self, logarithm: float) -> None:
         """The slider is of the logarithm, and its label of the length."""
@@ -190,8 +191,10 @@ class Window:
         edges = self.scene.data["longest_edge"]
         if longest >= edges.max() * (1 - 1e-9):
             longest = np.inf
-        if hasattr(self, "longest"):
-            self.longest.SetLabelFormat(f"{min(longest, edges.max()):.3g}")
+        if "longest edge" in self.sliders:
+            self.sliders["longest edge"].GetRepresentation().SetLabelFormat(
+                f"{min(longest, edges.max()):.3g}"
+            )
         self.show(longest=longest)
 
     def _listen(self) -> None:
