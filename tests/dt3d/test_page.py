@@ -134,10 +134,12 @@ def test_controls_show_what_python_shows(page, tmp_path, hash, choice):
 def test_sliders_keys_and_the_mouse_act(page, tmp_path):
     acts = """
     <script>
-      const told = {}, note = name => told[name] = { ...document.body.dataset, azimuth: eye.azimuth, zoom: eye.zoom };
+      const told = {};
+      const note = name => told[name] = { ...document.body.dataset, azimuth: eye.azimuth, zoom: eye.zoom };
       const slide = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event("input")); };
       const press = key => dispatchEvent(new KeyboardEvent("keydown", { key }));
-      const mouse = (type, x, y) => $("view").dispatchEvent(new PointerEvent(type, { clientX: x, clientY: y, pointerId: 1 }));
+      const mouse = (type, clientX, clientY) =>
+        $("view").dispatchEvent(new PointerEvent(type, { clientX, clientY, pointerId: 1 }));
       const wait = setInterval(() => {
         if (!document.body.dataset.drawn) return;
         clearInterval(wait);

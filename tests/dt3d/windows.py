@@ -35,7 +35,7 @@ class Screen:
         self.name, self.folder = name, folder
 
     def picture(self) -> np.ndarray:
-        """What is on the screen, uint8 (height, width, 3): a file of xwd, whose header has big-endian words."""
+        """What is on the screen, uint8 (height, width, 3), from a file of xwd with big-endian words."""
         raw = (self.folder / "Xvfb_screen0").read_bytes()
         head = np.frombuffer(raw, ">u4", 25)
         start, height, line, colors = int(head[0]), int(head[5]), int(head[12]), int(head[19])
