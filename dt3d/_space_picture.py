@@ -140,7 +140,7 @@ def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
     mesh = surface(scene, choice)
     look = coloured(scalars, scene.data[scalars])
     whiten(plotter)
-    lay(plotter, mesh, look, edges=mesh.n_cells <= MOST_EDGES)
+    lay(plotter, mesh, look, edges=mesh.n_cells <= MOST_EDGES, width=2.0)  # smoothing makes it 1
     if "scalars" in look:
         add_bar(plotter, scalars, look, 34)
         _write(plotter, panel.note or explained(scalars), (0.03, 0.2 * FOOT), 20)
@@ -152,7 +152,7 @@ def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
     plotter.enable_anti_aliasing("ssaa")
     if not scene.plane:
         # shade where little light gets in: depth is seen without edges, too
-        cast(Any, plotter).enable_ssao(radius=mesh.length / 25, bias=mesh.length / 1500, kernel_size=64)
+        cast(Any, plotter).enable_ssao(radius=mesh.length / 25, bias=mesh.length / 800, kernel_size=16)
 
 
 def whiten(plotter: pyvista.Plotter) -> None:
@@ -160,14 +160,17 @@ def whiten(plotter: pyvista.Plotter) -> None:
     cast(Any, plotter).set_background("white", all_renderers=False)  # decorated, a function to mypy
 
 
-def lay(plotter: pyvista.Plotter, mesh: pyvista.PolyData, look: dict[str, Any], *, edges: bool) -> None:
-    """Put faces on a plotter, in place of those that were there."""
+def lay(
+    plotter: pyvista.Plotter, mesh: pyvista.PolyData, look: dict[str, Any], *, edges: bool, width: float = 1.0
+) -> None:
+    """Put faces on a plotter, in place of those that were there; edges in a width of pixels."""
     plotter.add_mesh(
         mesh,
         name="simplices",
         show_edges=edges,
         edge_color=INK,
         edge_opacity=EDGES,
+        line_width=width,
         ambient=0.36,
         diffuse=0.74,
         show_scalar_bar=False,
