@@ -104,17 +104,13 @@ def _rows(scene: Scene) -> np.ndarray:
 
 
 def _arrays(scene: Scene, rows: np.ndarray) -> dict[str, np.ndarray]:
-    """What the page's program reads, by name; points lie in the unit ball."""
+    """What the page's program reads, by name."""
     used, simplices = np.unique(scene.simplices[rows], return_inverse=True)
-    points = scene.points[used]
-    low, high = points.min(axis=0), points.max(axis=0)
-    points = points - (low / 2 + high / 2)
-    radius = np.hypot.reduce(points, axis=1).max()
     number = np.full(len(scene.simplices) + 1, -1, np.int32)  # the last one for those outside
     number[rows] = np.arange(len(rows), dtype=np.int32)
     edges = scene.data["longest_edge"]
     arrays = {
-        "points": (points / (radius or 1.0)).astype(np.float32).ravel(),
+        "points": scene.points[used].astype(np.float32).ravel(),
         "simplices": simplices.astype(np.int32).ravel(),
         "neighbors": number[scene.neighbors[rows]].ravel(),
         "longest": (edges[rows] / edges.max()).astype(np.float32),

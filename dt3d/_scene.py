@@ -76,6 +76,7 @@ class Scene:
     Attributes
     ----------
     points : float64 (n, 3)
+        Moved and scaled into the unit ball: graphics are in single precision, which an offset would use up.
     simplices, neighbors : int (m, d + 1)
     data : dict
         Cell data by name, as `cell_data` has them, first what colours show by default.
@@ -95,7 +96,9 @@ class Scene:
             iteration = np.asarray(getattr(tri, "iteration", iteration))
         found = cell_data(_Cells(points, simplices, self.neighbors, iteration))
         self.data = {name: found[name] for name in ORDER if name in found}
-        self.points = np.column_stack([points, np.zeros(len(points))]) if self.plane else points
+        self.points = _in_ball(
+            np.column_stack([points, np.zeros(len(points))]) if self.plane else points, simplices
+        )
         self.simplices = simplices
         self.middles = self.points[simplices].mean(axis=1)
 
@@ -147,7 +150,7 @@ class Scene:
     def usual_longest(self) -> float:
         """The longest edge that is shown by default, infinite where nothing is peeled."""
         edges = self.data["longest_edge"]
-        size = self.data["area" if self.plane else "volume"]
+        size = np.abs(self.data["area" if self.plane else "volume"])  # meshes of others may be turned
         bound = MEDIANS * float(np.median(edges))
         return bound if size[edges > bound].sum() > MOST_EMPTY * size.sum() else np.inf
 
@@ -171,6 +174,15 @@ class Scene:
         beside = self.neighbors[rows]
         row, k = np.nonzero((beside == OUTSIDE) | ~shown[beside])
         return self.simplices[rows[row][:, None], OUTWARD[k]], rows[row]
+
+
+def _in_ball(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """The points, those that simplices use in the unit ball."""
+    used = points[np.unique(simplices)]
+    middle = used.min(axis=0) / 2 + used.max(axis=0) / 2  # the sum may be too large for float64
+    radius = np.hypot.reduce(used - middle, axis=1).max()
+    placed: np.ndarray = (points - middle) / (radius or 1.0)
+    return placed
 
 
 def eye(choice: Choice) -> np.ndarray:

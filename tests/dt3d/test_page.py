@@ -78,7 +78,7 @@ def test_large_sets_are_shown_around_the_middle(tmp_path, monkeypatch):
     assert about["simplices"] == 1000
     assert about["left"] == lines[0]
     rows = _page._rows(SCENE)
-    off = np.abs(SCENE.middles - 0.5).max(axis=1)
+    off = np.abs(SCENE.middles - SCENE.middles.mean(axis=0)).max(axis=1)
     assert off[rows].mean() < np.delete(off, rows).mean()
     neighbors = _page._arrays(SCENE, rows)["neighbors"].reshape(-1, 4)
     t, k = np.nonzero(neighbors >= 0)

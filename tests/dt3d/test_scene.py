@@ -74,6 +74,18 @@ def test_iterations_only_where_they_mean_something(cube):
     assert scene.chosen(Choice()).scalars == "iteration"
 
 
+@pytest.mark.parametrize(("scale", "offset"), [(1e-300, 0.0), (1e300, 0.0), (1e-3, 5e5)])
+def test_points_are_in_the_unit_ball(scale, offset):
+    points = POINTS[:50] * scale + offset
+    scene = Scene(dt3d.Delaunay(points))
+    assert np.hypot.reduce(scene.points, axis=1).max() == pytest.approx(1)
+    low, high = points.min(axis=0), points.max(axis=0)
+    expected = (points - low) / (high - low)
+    low, high = scene.points.min(axis=0), scene.points.max(axis=0)
+    np.testing.assert_allclose((scene.points - low) / (high - low), expected, atol=1e-6)
+    assert 0.2 < scene.shown(scene.chosen(Choice(cut=0.5))).mean() < 0.8
+
+
 def test_files_have_no_neighbors(cube):
     class File:
         points, simplices, iteration = cube.points, cube.simplices, cube.iteration

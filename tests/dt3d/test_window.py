@@ -42,8 +42,7 @@ def test_it_opens_on_the_inside(window):
     assert window.choice.cut == 0.5
     assert window.mesh.n_cells == len(window.scene.faces(window.scene.shown(window.choice))[0])
     away = np.subtract(window.plotter.camera.position, window.plotter.camera.focal_point)
-    cut = window.mesh.cell_centers().points.mean(axis=0) - TRI.points.mean(axis=0)
-    assert away @ cut < 0
+    assert away @ window.mesh.cell_centers().points.mean(axis=0) < 0  # the whole has its middle at 0
     text = window.plotter.renderer.actors
     shown = window.scene.shown(window.choice).sum()
     assert f"{shown:,} of {len(TRI.simplices):,} tetrahedra; depth" in text["count"].GetInput()
@@ -104,6 +103,19 @@ def test_keys(window):
     window.press("x")
     assert window.open
     window.press("q")
+    assert not window.open
+
+
+@opengl
+def test_it_hears_keys_and_the_end(window):
+    window.plotter.show(interactive_update=True, auto_close=False)
+    window._listen()
+    interactor = window.plotter.iren.interactor
+    interactor.SetKeySym("2")
+    interactor.InvokeEvent("KeyPressEvent")
+    assert window.choice.scalars == "longest_edge"
+    assert window.open
+    interactor.InvokeEvent("ExitEvent")  # of the button that closes windows
     assert not window.open
 
 
