@@ -72,7 +72,8 @@ def write_page(scene: Scene, choice: Choice, path: str | Path, title: str = "dt3
     rows = _rows(scene)
     left = ""
     if len(rows) < len(scene.simplices):
-        left = f"the page has {len(rows):,} of {len(scene.simplices):,} simplices: those around the middle"
+        kind = "triangles" if scene.plane else "tetrahedra"
+        left = f"the page has {len(rows):,} of {len(scene.simplices):,} {kind}: those around the middle"
     arrays = _arrays(scene, rows)
     about = _about(scene, choice, len(rows), left)
     about["arrays"], packed = _packed(arrays)

@@ -73,7 +73,7 @@ def test_what_the_page_is_told(page, cube):
 def test_large_sets_are_shown_around_the_middle(tmp_path, monkeypatch):
     monkeypatch.setattr(_page, "MOST_CELLS", 1000)
     lines = write_page(SCENE, FIRST, tmp_path / "a.html")
-    assert lines[0] == f"the page has 1,000 of {len(TRI.simplices):,} simplices: those around the middle"
+    assert lines[0] == f"the page has 1,000 of {len(TRI.simplices):,} tetrahedra: those around the middle"
     about = told(tmp_path / "a.html")
     assert about["simplices"] == 1000
     assert about["left"] == lines[0]
@@ -107,6 +107,12 @@ def test_the_page_draws(page, tmp_path):
     colours = (inner.max(axis=2) - inner.min(axis=2)) > 0.2
     assert 0.2 < colours.mean() < 0.95
     assert len(np.unique((inner[colours] * 8).astype(int), axis=0)) > 20
+    # it fits between the lines above, the sliders below and the bar
+    assert (picture[110:680, [0, -1]] == 1).all()
+    part = picture[:690, 100:800]
+    (rows,) = np.nonzero((np.ptp(part, axis=2) > 0.2).any(axis=1))
+    assert 60 < rows[0] < 150
+    assert rows[-1] > 600
 
 
 @in_browser
