@@ -1,6 +1,9 @@
 """Pictures in files: rendered where OpenGL is, painted where it is not."""
 
 import importlib.util
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -9,8 +12,10 @@ from matplotlib.image import imread
 import dt3d
 from dt3d import _space_picture
 from dt3d._display import renders
+from dt3d._mesh_plane import draw_plane
 from dt3d._scene import Choice
 from dt3d._space_picture import HEIGHT, WIDTH, Panel, draw_picture
+from dt3d.files import write_mesh
 
 pytest.importorskip("pyvista")
 opengl = pytest.mark.skipif(not renders(), reason="VTK cannot render here")
@@ -72,6 +77,22 @@ def test_the_plane(tmp_path):
     assert colours(imread(tmp_path / "a.png")[:, :, :3]).mean() > 0.3
     draw_picture(dt3d.Delaunay(POINTS[:, :2]), tmp_path / "a.svg")
     assert (tmp_path / "a.svg").read_text().count("<path") > 400
+
+
+@opengl
+def test_triangles_of_one_thread_are_not_of_one_colour(tmp_path):
+    draw_plane(dt3d.Delaunay(POINTS[:, :2], threads=1), tmp_path / "a.png")
+    picture = imread(tmp_path / "a.png")[:, :, :3]
+    assert len(np.unique((picture[colours(picture)] * 8).astype(int), axis=0)) > 10
+
+
+@opengl
+def test_a_dead_screen_does_not_matter_and_says_nothing(tmp_path):
+    write_mesh(TRI, tmp_path / "a.npz")
+    words = [sys.executable, "-m", "dt3d", "view", tmp_path / "a.npz", "--screenshot", tmp_path / "a.png"]
+    done = subprocess.run(words, env=os.environ | {"DISPLAY": ":4711"}, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("wrote ")
 
 
 def test_vectors_are_painted(tmp_path, caplog, monkeypatch):
