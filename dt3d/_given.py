@@ -4,11 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Sized
 from os import PathLike
-from typing import Any, cast
+from typing import Any, Protocol, TypeAlias, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from ._exact_conversion import to_float64
+
+
+class HasPoints(Protocol):
+    """A dataset of PyVista, a mesh of meshio, a triangulation: what has the points as an attribute."""
+
+    @property
+    def points(self) -> np.ndarray:
+        """Coordinates (n, d)."""
+
+
+PointsLike: TypeAlias = npt.ArrayLike | HasPoints  # what `as_numbers` takes, to type checkers
 
 AXES = "xyz"
 

@@ -7,13 +7,13 @@ import numpy.typing as npt
 
 from ._errors import DegenerateInputError
 from ._exact_conversion import to_float64 as to_float64
-from ._given import as_numbers
+from ._given import PointsLike, as_numbers
 
 # Indices of faces (four per tetrahedron, some seven tetrahedra per site) are int32.
 MOST_SITES = 2**25
 
 
-def check_points(points: npt.ArrayLike, dimension: int | None = None) -> np.ndarray:
+def check_points(points: PointsLike, dimension: int | None = None) -> np.ndarray:
     """The points as a float64 array of its own, in C order, of shape (n, dimension).
 
     Without a dimension it is what the points have, 2 or 3.
@@ -185,6 +185,13 @@ def no_volume(dimension: int, n: int) -> DegenerateInputError:
             "where these are on a line"
         )
     return DegenerateInputError(msg, dimension)
+
+
+def advised(error: DegenerateInputError, given: object) -> DegenerateInputError:
+    """The error of `no_volume` for what was given, which may have to be indexed otherwise than an array."""
+    _, name = as_numbers(given, "points", None)
+    message = str(error).replace("coordinates, points[:, :2]", f"coordinates, {name}[:, :2]")
+    return DegenerateInputError(message, error.dimension)
 
 
 def no_area(dimension: int, n: int) -> DegenerateInputError:

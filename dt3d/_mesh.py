@@ -132,26 +132,3 @@ def own_points(points: np.ndarray, facets: np.ndarray) -> tuple[np.ndarray, np.n
     corners, faces = np.unique(facets, return_inverse=True)
     faces = faces.reshape(facets.shape).astype(np.int32)
     return np.asarray(points, np.float64)[corners], faces, corners.astype(np.int32)
-
-
-def show(tri: Tetrahedra, title: str = "") -> None:
-    """Open a window on the tetrahedra, with a plane to drag that cuts them open; returns when it is closed.
-
-    Parameters
-    ----------
-    tri : Delaunay, Subset or Mesh
-        What is shown.
-    title : str
-        Of the window.
-
-    Raises
-    ------
-    ImportError
-        If PyVista is not installed.
-    """
-    plotter = optional("pyvista").Plotter(title=title or "dt3d")
-    grid = to_pyvista(tri)
-    scalars = "iteration" if "iteration" in grid.cell_data else "depth"
-    plotter.add_mesh_clip_plane(grid, scalars=scalars, cmap="RdYlBu_r", show_edges=True, crinkle=True)
-    plotter.add_axes()
-    plotter.show()

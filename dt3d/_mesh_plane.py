@@ -72,7 +72,15 @@ def check_plane_path(path: str | Path) -> Path:
 
 
 def draw_plane(tri: Triangulation, path: Path) -> None:
-    """Draw the triangles, coloured by the threads that made them; `plot.FORMATS` has the extensions."""
+    """Draw the triangles, coloured by the threads that made them, by depth where one thread made all.
+
+    `plot.FORMATS` has the extensions.
+    """
+    if not varies(tri.thread):
+        from ._space_picture import draw_picture
+
+        draw_picture(tri, path)
+        return
     from .threaded2d.picture import plot
 
     figure = plot(tri).get_figure(root=True)

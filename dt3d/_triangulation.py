@@ -250,6 +250,12 @@ class Triangulation(Result):
 
         return plot_in_space(self, Look(edges=edges, colormap=colormap, **options))
 
+    def _repr_html_(self) -> str:
+        """What notebooks show: a table, and a small drawing of up to some thousand triangles."""
+        from ._notebook import to_html
+
+        return to_html(self)
+
     def _check_plot(self, ax: Axes | None, options: SpaceLook) -> None:
         from ._options import check_names
         from ._space_plot import SpaceLook

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, ClassVar, Unpack
 import numpy as np
 import numpy.typing as npt
 
+from ._errors import DegenerateInputError
 from ._extrapolation_options import search_options
-from ._input import check_points, check_seed, exactly_scaled, word_of
+from ._given import PointsLike
+from ._input import advised, check_points, check_seed, exactly_scaled, word_of
 from ._options import Method, SpaceOptions, check_names, check_of_plane, check_space_options
 from ._results import Names
 from ._scipy_members import SciPyMembers
@@ -178,7 +180,7 @@ class Delaunay(SciPyMembers):
 
     def __init__(
         self,
-        points: npt.ArrayLike,
+        points: PointsLike,
         furthest_site: bool = False,
         incremental: bool = False,
         qhull_options: str | None = None,
@@ -205,9 +207,10 @@ class Delaunay(SciPyMembers):
             if callback is not None:
                 callback(Progress(iteration, left, tetrahedra, time.perf_counter() - begun))
 
-        if chosen == "insertion":
-            self._insert(seed, threads, report, begun)
-        else:
+        try:
+            if chosen == "insertion":
+                self._insert(seed, threads, report, begun)
+                return
             import scanvec as sv  # and with it JAX
 
             from .extrapolation import triangulate
@@ -223,6 +226,8 @@ class Delaunay(SciPyMembers):
                 options=search_options(options, exact=exact),
             )
             self._take(outcome, machine, begun)
+        except DegenerateInputError as error:
+            raise advised(error, points) from None
 
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float

@@ -1,4 +1,4 @@
-"""Pictures of the tetrahedra, coloured by the iteration that found them.
+"""Pictures of the tetrahedra, coloured by the iteration that found them; by depth where all are of one.
 
 They are painted back to front on a matplotlib figure, so they need neither a screen nor an OpenGL library.
 A theorem makes this possible: seen from any point, the tetrahedra of a Delaunay triangulation can be ordered
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._cell_data import neighbors_of
 from ._optional import optional
 from ._output import save_figure as save_figure
 from ._paths import check_writable
@@ -97,7 +98,7 @@ def draw(
     path = check_picture_path(path)
     mpl = _import_matplotlib()
     views = [views] if isinstance(views, View) else list(views)
-    last = max(1, int(np.max(tri.iteration, initial=1)))
+    levels = _levels(tri)
 
     # a strip on the right holds the colour bar
     bar, dpi, size = 0.11 * width, 100, height / 65
@@ -106,19 +107,20 @@ def draw(
     for k, view in enumerate(views):
         ax = figure.add_axes(((k + 0.02) * width / whole, 0.02, 0.96 * width / whole, 0.92))
         paint(tri, ax, view, title_size=size)
-    if last > 1:
+    if levels.count > 1:
         axes = figure.add_axes(((whole - bar) / whole, 0.25, 0.25 * bar / whole, 0.5))
-        _add_scale(mpl, figure, axes, last, size)
+        _add_scale(mpl, figure, axes, levels, size)
     save_figure(figure, path)
 
 
-def _add_scale(mpl: ModuleType, figure: Figure, axes: Axes, last: int, size: float) -> None:
-    """The colour bar of the iterations."""
-    colors = mpl.colors.ListedColormap(_palette(mpl, last))
-    norm = mpl.colors.BoundaryNorm(np.arange(0.5, last + 1), last)
-    ticks = range(1, last + 1, -(-last // 12))
+def _add_scale(mpl: ModuleType, figure: Figure, axes: Axes, levels: _Levels, size: float) -> None:
+    """The colour bar of the iterations, or depths."""
+    colors = mpl.colors.ListedColormap(_palette(mpl, levels))
+    first, end = levels.first, levels.first + levels.count
+    norm = mpl.colors.BoundaryNorm(np.arange(first - 0.5, end), levels.count)
+    ticks = range(first, end, -(-levels.count // 12))
     scale = figure.colorbar(mpl.cm.ScalarMappable(norm, colors), cax=axes, ticks=ticks)
-    scale.set_label("found in iteration", size=size, labelpad=size)
+    scale.set_label(levels.name, size=size, labelpad=size)
     scale.ax.tick_params(labelsize=size, length=0)
     scale.outline.set_visible(False)
 
@@ -152,9 +154,10 @@ def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float =
     corners = (((tri.points - centre) / radius) @ axes.T)[tri.simplices]
 
     shown = _shown(corners * radius, tri.iteration, view)
-    corners, iteration = corners[shown], np.asarray(tri.iteration)[shown]
+    levels = _levels(tri)
+    corners, level = corners[shown], levels.values[shown] - levels.first
     order = _back_to_front(corners)
-    corners, iteration = corners[order], iteration[order]
+    corners, level = corners[order], level[order]
     middle = corners.mean(axis=1, keepdims=True)
     corners = middle + view.shrink * (corners - middle)
 
@@ -166,8 +169,7 @@ def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float =
     faces, normal = faces[visible], normal[visible]
     flat = faces[:, :, :2] * (EYE / (EYE - faces[:, :, 2:]))
 
-    last = max(1, int(np.max(tri.iteration, initial=1)))
-    color = _palette(mpl, last)[np.repeat(iteration - 1, visible.sum(axis=1))]
+    color = _palette(mpl, levels)[np.repeat(level, visible.sum(axis=1))]
     color = _light(color, normal, faces[:, :, 2].mean(axis=1))
     # thin dark outlines, thinner the more there are; they also close the seams between faces
     thickness = np.clip(30 / np.sqrt(len(flat) + 1), 0.05, 0.5)
@@ -194,15 +196,38 @@ def check_picture_path(path: str | Path) -> Path:
     return path
 
 
-def _palette(mpl: ModuleType, last: int) -> np.ndarray:
-    """A colour for every iteration from 1 to the last: float64 (last, 3).
+@dataclass(frozen=True)
+class _Levels:
+    """The integers that colours show: their name, that of each tetrahedron, the least, how many there are."""
 
-    Where there is one only, as by insertion, there is nothing to tell apart: one light colour.
-    """
-    if last == 1:
+    name: str
+    values: np.ndarray
+    first: int
+    count: int
+
+
+def _levels(tri: Tetrahedra) -> _Levels:
+    """The iterations of tetrahedra; their depths where all were found by the first, as by insertion."""
+    from .geometry.depths import depths
+
+    iteration = np.asarray(tri.iteration)
+    last = int(np.max(iteration, initial=1))
+    if last > 1:
+        return _Levels("found in iteration", iteration, 1, last)
+    neighbors = getattr(tri, "neighbors", None)
+    depth = depths(neighbors_of(np.asarray(tri.simplices)) if neighbors is None else np.asarray(neighbors))
+    depth = np.maximum(depth, 0)  # of damaged meshes
+    return _Levels("depth: facets to the hull", depth, 0, int(np.max(depth, initial=0)) + 1)
+
+
+def _palette(mpl: ModuleType, levels: _Levels) -> np.ndarray:
+    """A colour for every level: float64 (count, 3); where there is one only, a light one."""
+    if levels.count == 1:
         return np.array([mpl.colors.to_rgb("#9ecae1")])
-    # from blue through pale yellow to red: told apart by colour-blind eyes, and under light and shade
-    return np.asarray(mpl.colormaps["RdYlBu_r"](np.linspace(0.0, 1.0, last)))[:, :3]
+    # iterations from blue through pale yellow to red: told apart by colour-blind eyes, and under light and
+    # shade; depths as in what PyVista renders
+    colors = mpl.colormaps["RdYlBu_r" if levels.first else "viridis"]
+    return np.asarray(colors(np.linspace(0.0, 1.0, levels.count)))[:, :3]
 
 
 def camera(view: View) -> np.ndarray:

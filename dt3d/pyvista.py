@@ -59,7 +59,7 @@ class Accessor:
         """
         from .delaunay import Delaunay
 
-        return Delaunay(self._dataset.points, **options)
+        return Delaunay(self._dataset, **options)
 
     def delaunay(self, *, alpha: float | None = None, **options: Any) -> pyvista.UnstructuredGrid:
         """The tetrahedra of the dataset's points, with its point data, as PyVista's ``delaunay_3d``; exact.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from .choice import Choice
@@ -19,8 +20,10 @@ def demo(*, out: Path = Path("out")) -> None:
     out
         The folder for both files; made if it is not there.
     """
+    from .._scene import Choice as Shown
+    from .._space_picture import Panel, draw_picture
     from ..files import check_mesh_path, write_mesh
-    from ..plot import View, check_picture_path, draw
+    from ..plot import check_picture_path
     from ..samples import mtor
 
     out.mkdir(parents=True, exist_ok=True)
@@ -29,15 +32,25 @@ def demo(*, out: Path = Path("out")) -> None:
     speaker = Speaker(Reporting())
     points = mtor()
     speaker.say(f"{len(points):,} atoms of two mTOR-mLST8 complexes (PDB entry 4JSV)")
+    # edges longer than some bonds lead through what is no protein: voids, the gap, the room below the hull
+    panels = [
+        Panel(
+            Shown(scalars="longest_edge", longest=math.inf, cut=0.5),
+            "All tetrahedra, cut open",
+            "longest edge in Å: short in the proteins, long in what is around them",
+        ),
+        Panel(
+            Shown(scalars="depth", longest=6.0, cut=0.0),
+            "Those with edges up to 6 Å: the proteins",
+            "depth: facets to the hull; it is greatest in the clefts",
+        ),
+    ]
+    headline = f"Delaunay triangulation of {len(points):,} atoms: two mTOR-mLST8 complexes, PDB entry 4JSV"
     with Steps(speaker.bars, ["triangulating", "writing", "drawing"]) as steps:
         tri = triangulated(speaker, steps, points, Choice(method="extrapolation"))
         speaker.show(table_of(tri, "mTOR-mLST8, PDB entry 4JSV"))
         with steps.step("writing"):
             write_mesh(tri, out / "mtor.vtu")
-        views = [
-            View("all tetrahedra, cut open", shrink=0.85),
-            View("those with edges up to 6 Å: the proteins", shrink=0.9, cut=False, longest=6.0),
-        ]
         with steps.step("drawing"):
-            draw(tri, out / "mtor.png", views)
+            draw_picture(tri, out / "mtor.png", panels, headline)
     speaker.say(f"wrote {out / 'mtor.vtu'} (for dt3d view, ParaView, PyVista) and {out / 'mtor.png'}")

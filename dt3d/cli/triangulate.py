@@ -75,7 +75,7 @@ def triangulate(
     choice
         What is run.
     picture
-        Also draw a picture: .png .pdf .svg .jpg
+        Also draw a picture: .png .jpg, or .pdf .svg, which matplotlib paints
     delivery
         How the mesh is delivered.
     reporting
@@ -123,8 +123,8 @@ class _Job:
     def run(self, steps: Steps, formats: Formats, output: Path) -> Mapping[str, object]:
         """Read, triangulate, verify, write and draw; what is reported to programs."""
         from .._mesh_plane import check_plane_path, draw_plane, write_plane_mesh
+        from .._space_picture import draw_picture
         from ..files import check_mesh_path, write_mesh
-        from ..plot import draw
 
         machine = self.choice.make_machine()
         with steps.step("reading"):
@@ -141,7 +141,7 @@ class _Job:
             write(tri, output, compress=self.delivery.compress)
         if self.picture is not None:
             with steps.step("drawing"):
-                draw_plane(tri, self.picture) if in_plane else draw(tri, self.picture)
+                draw_plane(tri, self.picture) if in_plane else draw_picture(tri, self.picture)
         seconds = {name: spent for name, spent in steps.seconds.items() if name != "triangulating"}
         self.speaker.show(table_of(tri, one_line(called), details=self.delivery.details, files=seconds))
         if machine is not None and machine.ledger is not None:

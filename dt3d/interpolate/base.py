@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, cast
 import numpy as np
 import numpy.typing as npt
 
+from .._given import PointsLike
 from .._input import check_points, check_queries
 from ..delaunay import Delaunay
 from ..subset import Subset
@@ -37,7 +38,7 @@ class Interpolator:
 
     def __init__(
         self,
-        points: npt.ArrayLike | Geometry,
+        points: PointsLike | Geometry,
         values: npt.ArrayLike,
         fill_value: complex = np.nan,
         rescale: bool = False,
@@ -56,7 +57,7 @@ class Interpolator:
         else:
             if isinstance(points, tuple):  # of coordinates, as in SciPy
                 points = np.stack(np.broadcast_arrays(*points), axis=-1)
-            self.points = check_points(cast(npt.ArrayLike, points))
+            self.points = check_points(cast(PointsLike, points))
             sites = self.points
             if rescale:
                 self._offset, self._scale = sites.mean(axis=0), np.ptp(sites, axis=0)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from .._given import PointsLike
 from .._memory import require
 from .._numba.announce import announce_compilation
 from .._numba.cores import available_cores
@@ -76,7 +77,7 @@ class NaturalNeighbor(Interpolator):
 
     def __init__(
         self,
-        points: npt.ArrayLike | Delaunay,
+        points: PointsLike | Delaunay,
         values: npt.ArrayLike,
         fill_value: complex = np.nan,
         rescale: bool = False,

@@ -15,6 +15,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
+from .._given import PointsLike
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from .._topology import OUTSIDE
@@ -109,9 +110,7 @@ class Nearest(Interpolator):
     ([1.0, 3.0], [2])
     """
 
-    def __init__(
-        self, points: npt.ArrayLike | Delaunay, values: npt.ArrayLike, rescale: bool = False
-    ) -> None:
+    def __init__(self, points: PointsLike | Delaunay, values: npt.ArrayLike, rescale: bool = False) -> None:
         super().__init__(points, values, np.nan, rescale)
         self._check_whole()
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import time
 from typing import ClassVar, Unpack
 
-import numpy.typing as npt
-
+from .._given import PointsLike
 from .._input import check_points, exactly_scaled
 from .._numba.announce import announce_compilation
 from .._options import Location, Order, PlaneMethod, Subdivision, check_names, check_plane_options
@@ -116,7 +115,7 @@ class Delaunay(Triangulated):
 
     def __init__(
         self,
-        points2d: npt.ArrayLike,
+        points2d: PointsLike,
         *,
         method: PlaneMethod = "auto",
         threads: int | None = None,

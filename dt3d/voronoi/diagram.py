@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn
 import numpy as np
 import numpy.typing as npt
 
+from .._given import PointsLike
 from .._options import is_count
 from .._results import Names, Result, damaged, frozen
 from .._scipy_members import SciPyMembers
@@ -92,7 +93,7 @@ class Voronoi(Result):
 
     def __init__(
         self,
-        points: npt.ArrayLike | Triangulation,
+        points: PointsLike | Triangulation,
         furthest_site: bool = False,
         incremental: bool = False,
         qhull_options: str | None = None,

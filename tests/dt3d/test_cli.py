@@ -11,6 +11,7 @@ import pytest
 
 import dt3d
 from dt3d import cli, samples
+from dt3d._mesh_plane import write_plane_mesh
 from dt3d.cli.all_experiments import QUICK
 from dt3d.cli.report import table_of
 from dt3d.files import read_mesh, write_mesh
@@ -135,17 +136,42 @@ def test_demo(tmp_path, capsys):
 
 def test_view_draws_without_a_screen(cube, tmp_path, capsys):
     write_mesh(cube, tmp_path / "cube.npz")
-    assert cli.main(["view", str(tmp_path / "cube.npz"), "--screenshot", str(tmp_path / "cube.png")]) == 0
+    words = ["view", tmp_path / "cube.npz", "--screenshot", tmp_path / "cube.png"]
+    words += ["--html", tmp_path / "cube.html", "--scalar", "iteration", "--cut", "0.2", "--longest", "inf"]
+    assert cli.main([*map(str, words), "--azimuth", "-20"]) == 0
     assert (tmp_path / "cube.png").read_bytes().startswith(b"\x89PNG")
-    assert "wrote" in capsys.readouterr().out
+    page = (tmp_path / "cube.html").read_text()
+    assert '"scalar": "iteration", "cut": 0.2' in page
+    assert '"azimuth": -20.0' in page
+    assert capsys.readouterr().out.count("wrote") == 2
+
+
+def test_view_shows_the_plane(tmp_path, capsys):
+    write_plane_mesh(dt3d.Delaunay(np.random.default_rng(0).random((20, 2))), tmp_path / "a.vtu")
+    assert cli.main(["view", str(tmp_path / "a.vtu"), "--html", str(tmp_path / "a.html")]) == 0
+    assert '"kind": "triangles"' in (tmp_path / "a.html").read_text()
+    np.savez(tmp_path / "bad.npz", points=np.zeros((3, 2)), triangles=[[0, 1, 7]])
+    line = fails(capsys, "view", tmp_path / "bad.npz", "--html", tmp_path / "b.html")
+    assert "bad.npz is damaged: triangles name sites 0 to 7, but there are 3 points" in line
+
+
+def test_view_refuses_what_cannot_be(cube, tmp_path, capsys):
+    write_mesh(cube, tmp_path / "cube.npz")
+    words = ["view", tmp_path / "cube.npz", "--html", tmp_path / "a.html"]
+    assert "cut must be from 0" in fails(capsys, *words, "--cut", "3")
+    assert "scalars must be one of" in fails(capsys, *words, "--scalar", "colour")
+    assert "leaves nothing" in fails(capsys, *words, "--longest", "0.1")
+    assert "unknown extension '.pdf'" in fails(capsys, *words[:2], "--html", tmp_path / "a.pdf")
+    assert not (tmp_path / "a.html").exists()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a screen")
 def test_view_without_a_screen_says_so(cube, tmp_path, monkeypatch, capsys):
     write_mesh(cube, tmp_path / "cube.npz")
     monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    assert "no screen to open a window on; use --screenshot" in fails(capsys, "view", tmp_path / "cube.npz")
+    assert "use --screenshot FILE.png, or --html" in fails(capsys, "view", tmp_path / "cube.npz")
+    monkeypatch.setenv("DISPLAY", ":4711")
+    assert "DISPLAY=:4711 does not answer; use --s" in fails(capsys, "view", tmp_path / "cube.npz")
 
 
 def test_errors_are_one_line(points, tmp_path, capsys):

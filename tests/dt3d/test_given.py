@@ -389,3 +389,21 @@ def test_arrays_of_jax():
         dt3d.Delaunay(points)
     advised = eval(re.findall("pass (.+)$", str(caught.value))[0], {"points": points, "np": np})
     assert dt3d.Delaunay(advised).verify()
+
+
+@pytest.mark.parametrize("method", ["insertion", "extrapolation"])
+@pytest.mark.parametrize(
+    "given",
+    [
+        np.column_stack([POINTS[:, :2], np.zeros(20)]),
+        SimpleNamespace(points=np.column_stack([POINTS[:, :2], np.zeros(20)])),
+        np.column_stack([POINTS[:, :2], np.zeros(20)]).tolist(),
+    ],
+    ids=["array", "dataset", "list"],
+)
+def test_the_advice_for_points_on_a_plane_works(given, method):
+    with pytest.raises(dt3d.DegenerateInputError, match="lie on a plane") as caught:
+        dt3d.Delaunay(given, method=method)
+    assert caught.value.dimension == 2
+    advice = re.search(r"pass two coordinates, (.*?), or other two", str(caught.value))[1]
+    assert dt3d.Delaunay(eval(advice, {"points": given, "np": np})).ndim == 2

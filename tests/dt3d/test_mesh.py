@@ -8,7 +8,7 @@ import pytest
 import pyvista
 
 import dt3d
-from dt3d._mesh import hull_to_pyvista, show, to_pyvista
+from dt3d._mesh import hull_to_pyvista, to_pyvista
 from dt3d._mesh_data import carry
 from dt3d.files import check_mesh_path, read_mesh, read_points, write_mesh
 
@@ -185,31 +185,6 @@ def test_missing_packages_say_how_to_install_them(cube, tmp_path, monkeypatch):
         to_pyvista(cube)
 
 
-def test_window_shows_the_iterations(cube, monkeypatch):
-    import pyvista
-
-    calls = {}
-
-    class Window:
-        """Stands for a window, which a test machine may not be able to open."""
-
-        def __init__(self, title):
-            calls["title"] = title
-
-        def add_mesh_clip_plane(self, mesh, **options):
-            calls["cells"], calls["scalars"] = mesh.n_cells, options["scalars"]
-
-        def add_axes(self):
-            pass
-
-        def show(self):
-            calls["shown"] = True
-
-    monkeypatch.setattr(pyvista, "Plotter", Window)
-    show(cube, "a cube")
-    assert calls == {"title": "a cube", "cells": 6, "scalars": "iteration", "shown": True}
-
-
 @pytest.mark.parametrize("name", ["space", "plane", "part"])
 def test_meshio_has_the_same_cells_and_data(name, tmp_path):
     tri = dt3d.Delaunay(POINTS[:, :2] if name == "plane" else POINTS)
@@ -238,15 +213,3 @@ def test_without_packages_the_methods_say_how_to_install_them(monkeypatch):
         for method in (tri.to_pyvista, tri.hull_to_pyvista, tri.to_meshio):
             with pytest.raises(ImportError, match=r"pip install 'dt3d\[view\]'"):
                 method()
-
-
-def test_a_window_of_one_iteration_shows_depths(monkeypatch):
-    import pyvista
-
-    calls = []
-    monkeypatch.setattr(
-        pyvista.Plotter, "add_mesh_clip_plane", lambda self, mesh, **o: calls.append(o["scalars"])
-    )
-    monkeypatch.setattr(pyvista.Plotter, "show", lambda self: self.close())
-    show(dt3d.Delaunay(POINTS))
-    assert calls == ["depth"]
