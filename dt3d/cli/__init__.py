@@ -1,4 +1,4 @@
-"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `experiment`, `bench`, `compare`.
+"""The command line: `dt3d demo`, `triangulate`, `verify`, `view`, `info`, `warmup` and more.
 
 Exit statuses: 0 done; 1 `dt3d verify` found no Delaunay triangulation, or one of `experiment all` failed;
 2 bad words or input, or a file that cannot be read or written, with one line that says what is wrong; 70 a
@@ -16,7 +16,7 @@ from rich.console import Console
 import dt3d
 
 from .._status import Printer, one_line, run
-from . import bench, compare, demo, experiment, meshes, triangulate
+from . import bench, compare, completion, demo, experiment, info, meshes, triangulate, warmup
 
 __all__ = ["app", "main"]
 
@@ -38,6 +38,9 @@ for command in (
     experiment.experiment,
     bench.bench,
     compare.compare,
+    info.info,
+    warmup.warmup,
+    completion.completion,
 ):
     app.command(command)
 
