@@ -53,9 +53,9 @@ def warmup(*, reporting: Reporting = Reporting()) -> None:  # noqa: B008  frozen
         _run([_warmup.FIRST], 1, steps)  # which has a second process itself
         _run(_warmup.OTHERS, available_cores(), steps)
     for name, seconds in steps.seconds.items():
-        speaker.say(f"{seconds:6.1f} s  {name}")
+        speaker.show(f"{seconds:6.1f} s  {name}")
     seconds = time.perf_counter() - begun
-    speaker.say(f"{seconds:6.1f} s  in all; what was compiled is on disk")
+    speaker.show(f"{seconds:6.1f} s  in all; what was compiled is on disk")
     speaker.result({"seconds": {**steps.seconds, "total": seconds}})
 
 
