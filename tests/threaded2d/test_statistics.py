@@ -25,9 +25,12 @@ def test_who_inserted_what():
 
 
 def test_the_circumcircle_method_has_tests_for_each_access():
-    # threads that give way at random are never alone, as they may be on a busy machine
+    # threads that give way at random meet, unless one is done before another begins, as on a busy machine
     options = Options(method="circumcircle", threads=3).contended(2)
-    stats = triangulate(uniform(2000), options).stats
+    for sites in (2000, 20_000, 200_000):
+        stats = triangulate(uniform(sites), options).stats
+        if stats.tests > 0:
+            break
     assert stats.tests > 0
     assert stats.tests_per_access * stats.accesses == pytest.approx(stats.tests)
     assert stats.corrected == 0 or stats.given_up > 0
