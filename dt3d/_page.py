@@ -22,7 +22,7 @@ from typing import Any, cast
 import numpy as np
 
 from ._cell_data import varies
-from ._paths import check_writable, written_aside
+from ._paths import check_extension, check_writable, written_aside
 from ._scene import Choice, Scene, color_range, explained, is_wide, title_of
 from .plot import CUT
 
@@ -35,9 +35,7 @@ ALL = 2.0  # as a share of the longest edge: nothing is longer
 def check_page_path(path: str | Path) -> Path:
     """The path, if a page can be written there; a ValueError or OSError if not."""
     path = Path(path)
-    if path.suffix.lower() not in EXTENSIONS:
-        msg = f"cannot write a page to {path}: unknown extension {path.suffix!r}; known are .html, .htm"
-        raise ValueError(msg)
+    check_extension(path, EXTENSIONS, "write a page to")
     check_writable(path)
     return path
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
 
 from scanvec._writing import check_writable, written_aside
 
-__all__ = ["by_extension", "check_apart", "check_file", "check_writable", "written_aside"]
+__all__ = ["by_extension", "check_apart", "check_extension", "check_file", "check_writable", "written_aside"]
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -44,8 +44,13 @@ def check_target(path: str | Path, table: dict[str, F], verb: str) -> Path:
 
 def by_extension(path: Path, table: dict[str, F], verb: str) -> F:
     """The table's entry for the extension, in any case; otherwise a ValueError that lists the known ones."""
-    try:
-        return table[path.suffix.lower()]
-    except KeyError:
-        msg = f"cannot {verb} {path}: unknown extension {path.suffix!r}; known are {', '.join(sorted(table))}"
-        raise ValueError(msg) from None
+    check_extension(path, sorted(table), verb)
+    return table[path.suffix.lower()]
+
+
+def check_extension(path: Path, known: Iterable[str], verb: str) -> None:
+    """A ValueError that lists the known extensions, unless the path has one of them, in any case."""
+    known = tuple(known)
+    if path.suffix.lower() not in known:
+        msg = f"cannot {verb} {path}: unknown extension {path.suffix!r}; known are {', '.join(known)}"
+        raise ValueError(msg)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ._cell_data import varies
 from ._optional import optional
-from ._paths import check_writable, written_aside
+from ._paths import check_extension, check_writable, written_aside
 from .plot import CUT, View, camera
 
 if TYPE_CHECKING:
@@ -96,10 +96,7 @@ def _aloud() -> Iterator[None]:
 
 def _check_screenshot(path: str | Path) -> Path:
     path = Path(path)
-    if path.suffix.lower() not in FORMATS:
-        known = ", ".join(FORMATS)
-        msg = f"cannot write a picture to {path}: unknown extension {path.suffix!r}; known are {known}"
-        raise ValueError(msg)
+    check_extension(path, FORMATS, "write a picture to")
     check_writable(path)
     return path
 

@@ -20,7 +20,7 @@ import numpy as np
 from ._cell_data import neighbors_of
 from ._optional import optional
 from ._output import save_figure as save_figure
-from ._paths import check_writable
+from ._paths import check_extension, check_writable
 from ._topology import OUTWARD
 
 if TYPE_CHECKING:
@@ -189,9 +189,7 @@ def paint(tri: Tetrahedra, ax: Axes, view: View = View(), *, title_size: float =
 def check_picture_path(path: str | Path) -> Path:
     """The path, if a picture can be written there; a ValueError or OSError if not."""
     path = Path(path)
-    if path.suffix.lower() not in FORMATS:
-        msg = f"cannot draw {path}: unknown extension {path.suffix!r}; known are {', '.join(FORMATS)}"
-        raise ValueError(msg)
+    check_extension(path, FORMATS, "draw")
     check_writable(path)
     return path
 

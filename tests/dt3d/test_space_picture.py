@@ -17,7 +17,6 @@ from dt3d._scene import Choice
 from dt3d._space_picture import HEIGHT, WIDTH, Panel, draw_picture
 from dt3d.files import write_mesh
 
-pytest.importorskip("pyvista")
 opengl = pytest.mark.skipif(not renders(), reason="VTK cannot render here")
 
 POINTS = np.random.default_rng(2).random((400, 3))

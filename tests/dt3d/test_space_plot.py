@@ -5,10 +5,9 @@ import sys
 import matplotlib.image
 import numpy as np
 import pytest
+import pyvista
 
 import dt3d
-
-pyvista = pytest.importorskip("pyvista")
 
 RNG = np.random.default_rng(5)
 POINTS = RNG.random((150, 3))

@@ -18,7 +18,6 @@ from dt3d.files import write_mesh
 
 from .windows import screen
 
-pytest.importorskip("pyvista")
 opengl = pytest.mark.skipif(not renders(), reason="VTK cannot render here")
 
 TRI = dt3d.Delaunay(np.random.default_rng(6).random((300, 3)))
