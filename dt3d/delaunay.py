@@ -232,10 +232,8 @@ class Delaunay(SciPyMembers):
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float
     ) -> None:
-        from ._numba.announce import announce_compilation
         from .insertion import triangulate
 
-        announce_compilation()
         stretches = itertools.count(1)
         outcome = triangulate(
             exactly_scaled(self.points),
@@ -270,12 +268,10 @@ class Delaunay(SciPyMembers):
         )
 
     def _insert_in_plane(self, sites: np.ndarray, seed: int, threads: int | None, begun: float) -> None:
-        from ._numba.announce import announce_compilation
         from ._numba.cores import available_cores
         from .threaded2d.configuration import configured
         from .threaded2d.driver import triangulate
 
-        announce_compilation()
         most = None if threads is None else min(threads, available_cores())
         run = configured(len(sites), threads=most, seed=word_of(seed))
         prepared = time.perf_counter()

@@ -19,7 +19,6 @@ import numpy.typing as npt
 from ._errors import InternalError
 from ._input import check_queries
 from ._memory import require
-from ._numba.announce import announce_compilation
 from ._numba.cores import available_cores
 from ._numba.kernel_cache import cached_njit
 from ._numba.threads import run_short_tasks
@@ -117,7 +116,6 @@ class Locator:
         # first frozen, then checked, so that nothing can change between; and one type to numba
         self.simplices, self.neighbors = frozen(simplices), frozen(neighbors)
         check_complex(sites, self.simplices, self.neighbors)
-        announce_compilation()
         self.low, self.high = sites.min(axis=0), sites.max(axis=0)
         threads = available_cores()
         # predicates take rows of one array, so every thread has a row for the point at hand

@@ -12,6 +12,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 
+from .announce import announce
 from .cores import available_cores
 from .kernel_cache import Kept, is_kept
 
@@ -53,6 +54,7 @@ def compiled_beside(kernel: Callable[..., object], module: str, function: str) -
         child = subprocess.Popen([sys.executable, "-c", program], stdin=silent, stdout=silent, stderr=silent)
     except OSError:
         return lambda: None
+    announce(module)
 
     def wait() -> None:
         try:

@@ -35,6 +35,9 @@ def cached_njit(function: Callable[..., object] | None = None, **options: object
         return lambda function: cached_njit(function, **options)
     import numba
 
+    from .announce import announce_compilation
+
+    announce_compilation()
     _forks_wait()
     dispatcher = numba.njit(**options)(function)
     if not hasattr(dispatcher, "enable_caching"):  # NUMBA_DISABLE_JIT leaves the function as it is

@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from .._given import PointsLike
 from .._memory import require
-from .._numba.announce import announce_compilation
 from .._numba.cores import available_cores
 from .._numba.threads import run_short_tasks
 from .._results import frozen
@@ -166,7 +165,6 @@ class NaturalNeighbor(Interpolator):
         self, points: np.ndarray, slopes: bool
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Counts per point, int32 (k,), and all neighbours, weights and derivatives, one after the other."""
-        announce_compilation()
         found = self.tri.find_simplex(points)
         with _ONE.at_a_time:
             return self._weights_at(points, found, slopes)

@@ -13,7 +13,6 @@ import numpy as np
 
 from .._errors import DegenerateInputError
 from .._input import exactly_scaled
-from .._numba.announce import announce_compilation
 from .._numba.cores import available_cores
 from .._numba.threads import run_threads
 from .._topology import OUTSIDE
@@ -75,7 +74,6 @@ def locate(given: Arrays, results: Arrays) -> None:
     Given are points (..., n, d), simplices and neighbors (..., capacity, d + 1), and xi (..., q, d). A
     leading dimension is 1 where the array is the same for all.
     """
-    announce_compilation()
     *triangulation, queries = given
     (out,) = results
     own = np.broadcast_shapes(*(a.shape[:-2] for a in triangulation))
@@ -129,7 +127,6 @@ def _into_rows(
 
 def _triangulate(points: np.ndarray, threads: int | None, room: Room) -> int:
     """Triangulate scaled points, float64 (n, d), into that room; how many simplices there are."""
-    announce_compilation()
     if points.shape[1] == 3:
         from ..insertion import triangulate
 

@@ -7,7 +7,6 @@ from typing import ClassVar, Unpack
 
 from .._given import PointsLike
 from .._input import check_points, exactly_scaled
-from .._numba.announce import announce_compilation
 from .._options import Location, Order, PlaneMethod, Subdivision, check_names, check_plane_options
 from ..delaunay import Delaunay as Triangulated
 from .configuration import configured
@@ -130,7 +129,6 @@ class Delaunay(Triangulated):
         chosen = order or ("brio" if options.get("preset") is None else "random")
         word = check_plane_options(method, threads, chosen, location, subdivision, seed)
         check_values(options, method, location)
-        announce_compilation()
         points = check_points(points2d, 2)
         sites = exactly_scaled(points)
         run = configured(
