@@ -19,7 +19,7 @@ import pytest
 from numba.core import caching
 
 import dt3d
-from dt3d._numba import kernel_cache, numba_cache, sources
+from dt3d._numba import announce, kernel_cache, numba_cache, sources
 
 KERNEL = """
 from .kernel_cache import cached_njit
@@ -51,7 +51,7 @@ class Package:
     def __init__(self, folder):
         self.folder = folder / "kernels_for_tests"
         self.folder.mkdir()
-        for module in (kernel_cache, numba_cache, sources):
+        for module in (announce, kernel_cache, numba_cache, sources):
             shutil.copy(module.__file__, self.folder)
         self.write("__init__", "")
         self.write("kernel", KERNEL)
