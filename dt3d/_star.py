@@ -46,7 +46,8 @@ def find_beside(cells, kept, q, points, found, out, w):
     seen = np.zeros(len(cells.simplices), np.bool_)
     star = np.empty(64, np.int32)
     for i in range(len(points)):
-        cells.rows[q] = points[i]
+        for k in range(points.shape[1]):
+            cells.rows[q, k] = points[i, k]
         star[0], count, done = found[i], 1, 0
         seen[found[i]] = True
         while done < count and out[i] == OUTSIDE:

@@ -79,7 +79,8 @@ def _find(cells, t, q, points, order, out, w):
     """
     cells, w = unowned(cells), unowned(w)
     for i in order:
-        cells.rows[q] = points[i]
+        for k in range(points.shape[1]):  # numba compiles a whole array's assignment for a second
+            cells.rows[q, k] = points[i, k]
         out[i], t = _walk(cells, t, q, w)
         if out[i] < 0:
             if not cells.convex:

@@ -108,7 +108,9 @@ def _count_containing(sites, simplices, w):
         for k in range(4):
             sign = 0
             for j in range(4):
-                sign = orientation_with(sites, v, k, simplices[0, j], w)
+                x = simplices[0, j]
+                if x == v[k] or not (x == v[0] or x == v[1] or x == v[2] or x == v[3]):
+                    sign = orientation_with(sites, v, k, x, w)
                 if sign != 0:
                     break
             if sign < 0:
@@ -122,10 +124,12 @@ def _count_containing(sites, simplices, w):
 def _count_facing(sites, simplex, hull, w):
     count = 0
     for i in range(len(hull)):
+        a, b, c = hull[i, 0], hull[i, 1], hull[i, 2]
         sign = 0
         for j in range(4):
             # seen from outside a facet turns to the left: what is behind it has negative orientation
-            sign = orient3d(sites, hull[i, 0], hull[i, 1], hull[i, 2], simplex[j], w)
+            if simplex[j] != a and simplex[j] != b and simplex[j] != c:
+                sign = orient3d(sites, a, b, c, simplex[j], w)
             if sign != 0:
                 break
         count += sign >= 0

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import functools
 import logging
+import threading
 from dataclasses import dataclass
 
-from .kernel_cache import CURE, Kept
+from .kept import CURE, Kept
 
 ONCE = "once on this machine (dt3d warmup compiles all parts)"
 NOT_KEPT = (
@@ -41,9 +42,9 @@ class Part:
 PARTS = (
     Part("the order of insertion", ("ordering",), 3),
     Part("the exact stages of predicates", ("predicates",), 7),
-    Part("insertion in space", ("insertion", "_star"), 8),
-    Part("insertion in the plane", ("threaded2d",), 7),
-    Part("point location", ("location", "threaded2d.location"), 4),
+    Part("insertion in space", ("insertion",), 6),
+    Part("insertion in the plane", ("threaded2d",), 6),
+    Part("point location", ("location", "_star", "threaded2d.location"), 3),
     Part("proofs", ("verification", "threaded2d.verification"), 3),
     Part("sizes and shapes", ("geometry", "alpha", "_vertices"), 4),
     Part("Voronoi cells", ("voronoi",), 3),
@@ -85,11 +86,15 @@ def announce_compilation() -> None:
     """
     from numba.core import event
 
+    at_hand = threading.local()  # functions that this thread is about to compile, one for the other
+
     class Announcer(event.Listener):
         def on_start(self, event: event.Event) -> None:
-            announce(event.data["dispatcher"].py_func.__module__)
+            at_hand.count = getattr(at_hand, "count", 0) + 1
+            if at_hand.count == 1:
+                announce(event.data["dispatcher"].py_func.__module__)
 
         def on_end(self, event: event.Event) -> None:
-            pass
+            at_hand.count = max(0, getattr(at_hand, "count", 0) - 1)
 
     event.register("numba:compile", Announcer())

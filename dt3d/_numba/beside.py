@@ -1,12 +1,14 @@
 """Compiling in a second process, on the first call of a new machine, what this one will need next.
 
 numba compiles one function at a time in a process. Where nothing of an engine is on disk yet, another process
-compiles its largest kernel meanwhile, and this one then finds it there. If that does not work, for whatever
-reason, this process compiles as ever.
+compiles its largest kernel meanwhile, and this one then finds it there. The other goes on with what is needed
+less often, until it is done or this process ends. If that does not work, for whatever reason, this process
+compiles as ever.
 """
 
 from __future__ import annotations
 
+import atexit
 import os
 import subprocess
 import sys
@@ -14,10 +16,37 @@ from collections.abc import Callable
 
 from .announce import announce
 from .cores import available_cores
-from .kernel_cache import Kept, is_kept
+from .kept import Kept
+from .kernel_cache import is_kept
 
-# the words after ``python -c``: where packages are, a module, and its function without arguments
-PROGRAM = "import sys, importlib; sys.path[:] = {path!r}; importlib.import_module({module!r}).{function}()"
+# after ``python -c``: where packages are, a module, and two of its functions, without arguments
+PROGRAM = """
+import importlib, sys
+sys.path[:] = {path!r}
+module = importlib.import_module({module!r})
+module.{function}()
+print(flush=True)
+module.{afterwards}()
+"""
+
+
+CHILDREN: list[subprocess.Popen[bytes]] = []
+"""Processes that may still compile."""
+
+
+@atexit.register
+def end_all() -> None:
+    """Leave no process."""
+    for child in tuple(CHILDREN):
+        _end(child)
+
+
+def _end(child: subprocess.Popen[bytes]) -> None:
+    child.kill()
+    child.wait()
+    assert child.stdout is not None
+    child.stdout.close()
+    CHILDREN.remove(child)
 
 
 def _is_python(path: str | None) -> bool:
@@ -25,7 +54,9 @@ def _is_python(path: str | None) -> bool:
     return path is not None and os.path.basename(path).startswith(("python", "pypy")) and os.path.isfile(path)
 
 
-def compiled_beside(kernel: Callable[..., object], module: str, function: str) -> Callable[[], None]:
+def compiled_beside(
+    kernel: Callable[..., object], module: str, function: str, afterwards: str
+) -> Callable[[], None]:
     """Begin to compile a kernel in a process of its own, unless that is needless or in vain.
 
     Parameters
@@ -34,11 +65,13 @@ def compiled_beside(kernel: Callable[..., object], module: str, function: str) -
         Compiled by `cached_njit`, always for arguments of the same types.
     module, function : str
         The function of a module, without arguments, that compiles it for these.
+    afterwards : str
+        The one that then compiles more.
 
     Returns
     -------
     function
-        To be called before the kernel is: waits until the process has ended.
+        To be called before the kernel is: waits until it is on disk, or the process has ended without it.
     """
     if (
         getattr(kernel, "overloads", True)  # in memory already, or numba compiles nothing
@@ -48,20 +81,23 @@ def compiled_beside(kernel: Callable[..., object], module: str, function: str) -
         or is_kept(kernel)
     ):
         return lambda: None
-    program = PROGRAM.format(path=sys.path, module=module, function=function)
+    program = PROGRAM.format(path=sys.path, module=module, function=function, afterwards=afterwards)
     silent = subprocess.DEVNULL
     try:
-        child = subprocess.Popen([sys.executable, "-c", program], stdin=silent, stdout=silent, stderr=silent)
+        child = subprocess.Popen(
+            [sys.executable, "-c", program], stdin=silent, stdout=subprocess.PIPE, stderr=silent
+        )
     except OSError:
         return lambda: None
     announce(module)
+    CHILDREN.append(child)
 
     def wait() -> None:
+        assert child.stdout is not None
         try:
-            child.wait()
+            child.stdout.read(1)
         except BaseException:  # Ctrl-C
-            child.kill()
-            child.wait()
+            _end(child)
             raise
 
     return wait

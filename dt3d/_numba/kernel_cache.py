@@ -10,7 +10,6 @@ is compiled again.
 from __future__ import annotations
 
 import contextlib
-import logging
 import os
 import pickle
 import time
@@ -19,10 +18,11 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from .kept import Kept
+
 if TYPE_CHECKING:
     from numba.core.caching import IndexDataCacheFile, _CacheLocator
 
-CURE = "set the environment variable NUMBA_CACHE_DIR to a folder that can be written"
 SECONDS_FOR_LOCK = 2.0  # seconds for another process to save what it has compiled
 
 
@@ -53,23 +53,6 @@ def cached_njit(function: Callable[..., object] | None = None, **options: object
             raise
         Kept.anywhere = False
     return dispatcher
-
-
-class Kept:
-    """Whether what is compiled now will be there for the next process."""
-
-    anywhere = True
-    said = False
-
-    @classmethod
-    def lost(cls, folder: str, error: OSError) -> None:
-        """Say once that what was compiled could not be saved."""
-        if cls.anywhere and not cls.said:
-            cls.said = True
-            logging.getLogger("dt3d").warning(
-                "what was compiled could not be kept in %s (%s): other processes compile it again; %s",
-                folder, error.strerror or error, CURE,
-            )  # fmt: skip
 
 
 @cache

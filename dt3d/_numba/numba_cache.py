@@ -14,7 +14,8 @@ from numba.core import caching, config
 from numba.core.base import BaseContext
 from numba.core.typing.templates import Signature
 
-from .kernel_cache import Kept, Records
+from .kept import Kept
+from .kernel_cache import Records
 from .sources import fingerprint
 
 

@@ -15,7 +15,7 @@ import dt3d
 
 from .._memory import available_memory, gigabytes
 from .._numba.cores import available_cores
-from .._numba.kernel_cache import CURE
+from .._numba.kept import CURE
 from .._status import one_line
 from .reporting import Reporting, Speaker
 

@@ -7,11 +7,17 @@ symbolic perturbation.
 from __future__ import annotations
 
 import numba
+from numba.core import types
+from numba.extending import intrinsic
 
+from .._numba.by_address import call_at
 from .._numba.kernel_cache import cached_njit
+from ..predicates.layout import CONFLICTS
+from ..predicates.open_stages import FUNCTIONS, WORKSPACE
 from ..predicates.space import inside, orientation_with
 from .mesh import (
     INFINITE,
+    MESH,
     mark,
     neighbor,
     prefetch_sphere,
@@ -64,7 +70,9 @@ def search(mesh, start, site, part, scratch, w):
             if above >= 0:  # not in the cavity yet
                 tested += 1
                 squared = squared_distance(mesh, u, site)
-                if squared > above or not (squared < radius_below(mesh, u) or conflicts(mesh, u, site.v, w)):
+                if squared > above or not (
+                    squared < radius_below(mesh, u) or call_conflicts(w, mesh, u, site.v, w)
+                ):
                     rim[0, facets] = vertex(mesh, t, k ^ 1)
                     rim[1, facets] = vertex(mesh, t, k ^ 2)
                     rim[2, facets] = vertex(mesh, t, k ^ 3)
@@ -102,6 +110,15 @@ def conflicts(mesh, t, v, w):
             corners = _signed_vertices(mesh, tetrahedron(neighbor(mesh, t, ghost)))
             break
     return inside(mesh.points, corners, v, w)
+
+
+FUNCTIONS.add(CONFLICTS, conflicts, (MESH, types.int64, types.int64, WORKSPACE))
+
+
+@intrinsic
+def call_conflicts(typingctx, work, mesh, t, v, w):
+    """The same, compiled apart from the kernel; ``work`` is the workspace, as is ``w``."""
+    return call_at(work, CONFLICTS, types.boolean, FUNCTIONS)
 
 
 @cached_njit

@@ -1,4 +1,7 @@
-"""The first call of a new machine: another process compiles `insert`, half of what there is to compile."""
+"""The first call of a new machine: another process compiles `insert`, half of what there is to compile.
+
+Then that process compiles what sites in general position hardly ever ask for.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ import numba
 import numpy as np
 
 from .._numba.beside import compiled_beside
+from ..predicates.layout import CONFLICTS, IN_SPHERE_OPEN, LINK_WIDE, ORIENT3D_OPEN
+from ..predicates.open_stages import FUNCTIONS
 from .insert import insert
 from .store import Store
 from .worker import Scale, scratch_for
@@ -21,6 +26,17 @@ def compile_insert() -> None:
     insert.compile(tuple(map(numba.typeof, arguments)))
 
 
+def compile_conflicts() -> None:
+    """Compile, or load, what `insert` calls by address in each run."""
+    FUNCTIONS.address(CONFLICTS)
+
+
+def compile_seldom() -> None:
+    """Compile what ties and large stars need; a grid asks for the in-sphere test first, so that is last."""
+    for place in (ORIENT3D_OPEN, LINK_WIDE, IN_SPHERE_OPEN):
+        FUNCTIONS.address(place)
+
+
 def insert_beside() -> Callable[[], None]:
     """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it."""
-    return compiled_beside(insert, __name__, compile_insert.__name__)
+    return compiled_beside(insert, __name__, compile_insert.__name__, compile_seldom.__name__)

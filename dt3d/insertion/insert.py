@@ -53,14 +53,16 @@ def insert(mesh, todo, state, scratch, scale, w):
     result = DONE
     while following < stop:
         site = site_at_hand(mesh, numba.int64(todo[following]))
-        last, found, steps = walk(mesh, last, site, part, scale.slack, w)
-        walked += steps
-        if not found and steps >= 0:
+        start = last
+        for attempt in range(2):  # one call, which is inlined once
+            last, found, steps = walk(mesh, start, site, part, scale.slack, w)
+            walked += steps
+            if found or steps < 0 or attempt:
+                break
             # the next walk would begin where this one stopped, and stop there, too
             start = nearby_start(mesh, site.v, part)
-            if start >= 0:
-                last, found, steps = walk(mesh, start, site, part, scale.slack, w)
-                walked += steps
+            if start < 0:
+                break
         if steps < 0:
             result = ENDLESS_WALK
             break
@@ -90,7 +92,7 @@ def insert(mesh, todo, state, scratch, scale, w):
             break
         free = make_tetrahedra(mesh, site.v, scratch, size, facets, free)
         note_tetrahedra(mesh, site.v, scratch, count)
-        if not link(mesh, scratch, facets, count):
+        if not link(mesh, scratch, facets, count, w):
             result = TORN_CAVITY
             break
         if round_spheres(mesh, site, scratch, facets, scale.reach) > 0 and flat(

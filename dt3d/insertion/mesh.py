@@ -69,6 +69,9 @@ def bundle(
     return Mesh(points, sites, sites.view(np.uint32), tetrahedra, spheres, spheres.view(np.float32))
 
 
+MESH = numba.typeof(bundle(np.empty(8), np.empty(8, np.uint32), np.empty(4)))  # one site is too contiguous
+
+
 def aligned(n: int, dtype: npt.DTypeLike) -> np.ndarray:
     """An uninitialised array that begins at a line of the cache."""
     size = np.dtype(dtype).itemsize

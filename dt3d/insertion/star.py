@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import numba
+from numba.core import types
+from numba.extending import intrinsic
 
+from .._numba.by_address import call_at
 from .._numba.kernel_cache import cached_njit
+from ..predicates.layout import LINK_WIDE
+from ..predicates.open_stages import FUNCTIONS
 from .mesh import (
     INFINITE,
+    MESH,
     facet,
     free_slot,
     label,
@@ -19,7 +25,7 @@ from .mesh import (
     side,
     tetrahedron,
 )
-from .worker import TABLE_BITS, FreeSlots
+from .worker import SCRATCH, TABLE_BITS, FreeSlots
 
 
 @cached_njit(inline="always", error_model="numpy")
@@ -101,12 +107,12 @@ def note_tetrahedra(mesh, v, scratch, count):
 
 
 @cached_njit(inline="always", error_model="numpy")
-def link(mesh, scratch, facets, count):
+def link(mesh, scratch, facets, count, w):
     """Make neighbours of star tetrahedra that share an edge of the rim; whether each edge has two."""
     if count <= 1 << TABLE_BITS:
         linked = link_narrow(mesh, scratch, facets)
     else:
-        linked = link_wide(mesh, scratch, facets)
+        linked = call_link_wide(w, mesh, scratch, facets)
     return linked
 
 
@@ -169,6 +175,15 @@ def link_wide(mesh, scratch, facets):
                 h = (h + 1) & (size - 1)
             set_neighbor(mesh, numba.int64(slots[f]), i + 1, scratch.values[h])
     return True
+
+
+FUNCTIONS.add(LINK_WIDE, link_wide, (MESH, SCRATCH, types.int64))
+
+
+@intrinsic
+def call_link_wide(typingctx, work, mesh, scratch, facets):
+    """The same, compiled apart from the kernel; ``work`` is the workspace."""
+    return call_at(work, LINK_WIDE, types.boolean, FUNCTIONS)
 
 
 @cached_njit(inline="always")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import NamedTuple
 
+import numba
 import numpy as np
 import numpy.typing as npt
 
@@ -97,6 +98,9 @@ def scratch_for(facets: int) -> Scratch:
         keys=np.empty(16 * facets, np.int64),
         values=np.empty(16 * facets, np.uint32),
     )
+
+
+SCRATCH = numba.typeof(scratch_for(1))
 
 
 class Worker:

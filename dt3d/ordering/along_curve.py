@@ -122,6 +122,8 @@ def _along_one_curve(
     keys.sort()
     long_runs = np.empty((n // SHORT_RUN + 1, 2), np.int64)
     count = _sort_short_runs(sites, keys, grid.index_bits, long_runs)
+    for begin, end in long_runs[:count].tolist():
+        keys[begin:end].sort()
     return keys, long_runs[:count]
 
 
@@ -164,7 +166,7 @@ def bounds(sites):
 def _sort_short_runs(sites, keys, index_bits, long_runs):
     """Replace keys by indices, sorted by coordinates within short runs of one place.
 
-    Returns the number of long runs, which are written.
+    Returns the number of long runs, which are written; their indices are in no order.
     """
     n, mask, count = len(keys), (1 << index_bits) - 1, 0
     i = 0
@@ -182,7 +184,6 @@ def _sort_short_runs(sites, keys, index_bits, long_runs):
             keys[k] = site
             j += 1
         if j - i > SHORT_RUN:
-            keys[i:j].sort()
             long_runs[count, 0], long_runs[count, 1] = i, j
             count += 1
         i = j

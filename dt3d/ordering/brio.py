@@ -48,7 +48,8 @@ def insertion_rounds(n, seed, left_out):
     for i in range(n):
         if level[i] < 255:
             ends[level[i] + 1] += 1
-    ends = np.cumsum(ends)
+    for k in range(rounds):
+        ends[k + 1] += ends[k]
     order = np.empty(n - len(left_out), np.uint32)
     place = ends[:-1].copy()
     for i in range(n):

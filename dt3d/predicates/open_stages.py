@@ -1,22 +1,22 @@
 """What the filters of the predicates leave open: pairs of doubles, lattices, and integers of any size.
 
 See `space` for the stages and their bounds. Points are tuples of their coordinates, so these functions are
-the same for all arrays that points are in. Each is compiled once, and called by its address
-(`_numba.by_address`), which the workspace has: within the kernels they would be compiled again and again.
+the same for all arrays that points are in. Each is compiled once, when a kernel first comes to it, and called
+by its address (`_numba.by_address`), which the workspace has: within the kernels they would be compiled again
+and again. Sites in general position hardly ever come to them.
 """
 
 from __future__ import annotations
 
-from functools import cache
-
 from numba.core import types
 from numba.extending import intrinsic
 
-from .._numba.by_address import address_of, call_at
+from .._numba.by_address import Functions, call_at
 from .._numba.kernel_cache import cached_njit
 from . import double_double as dd
 from .big_integers import in_circle_exact, in_sphere_exact, orient2d_exact, orient3d_exact
 from .layout import (
+    FINDER,
     IN_CIRCLE_OPEN,
     IN_SPHERE_OPEN,
     NEGLIGIBLE,
@@ -163,39 +163,34 @@ def _kinds(points: int, dimension: int) -> tuple[types.Type, ...]:
     return types.UniTuple(corner, points), types.float64, corner, WORKSPACE
 
 
-STAGES = {
-    ORIENT2D_OPEN: (orient2d_open, _kinds(3, 2)),
-    IN_CIRCLE_OPEN: (in_circle_open, _kinds(4, 2)),
-    ORIENT3D_OPEN: (orient3d_open, _kinds(4, 3)),
-    IN_SPHERE_OPEN: (in_sphere_open, _kinds(5, 3)),
-}
+FUNCTIONS = Functions(FINDER)
+"""What the addresses in a workspace are of: these stages, and what an engine adds."""
 
-
-@cache
-def address(place: int) -> int:
-    """Where the stage is that has this place in the workspace; compiled, or loaded from disk, at first."""
-    return address_of(*STAGES[place])
+FUNCTIONS.add(ORIENT2D_OPEN, orient2d_open, _kinds(3, 2))
+FUNCTIONS.add(IN_CIRCLE_OPEN, in_circle_open, _kinds(4, 2))
+FUNCTIONS.add(ORIENT3D_OPEN, orient3d_open, _kinds(4, 3))
+FUNCTIONS.add(IN_SPHERE_OPEN, in_sphere_open, _kinds(5, 3))
 
 
 @intrinsic
 def call_orient2d_open(typingctx, work, rows, det, extents, w):
     """The stage of `plane.orient2d`; ``work`` is the workspace, as is ``w``."""
-    return call_at(work, ORIENT2D_OPEN, types.int64, STAGES[ORIENT2D_OPEN][1])
+    return call_at(work, ORIENT2D_OPEN, types.int64, FUNCTIONS)
 
 
 @intrinsic
 def call_in_circle_open(typingctx, work, rows, det, extents, w):
     """The stage of `plane.in_circle`."""
-    return call_at(work, IN_CIRCLE_OPEN, types.int64, STAGES[IN_CIRCLE_OPEN][1])
+    return call_at(work, IN_CIRCLE_OPEN, types.int64, FUNCTIONS)
 
 
 @intrinsic
 def call_orient3d_open(typingctx, work, rows, det, extents, w):
     """The stage of `space.orient3d`."""
-    return call_at(work, ORIENT3D_OPEN, types.int64, STAGES[ORIENT3D_OPEN][1])
+    return call_at(work, ORIENT3D_OPEN, types.int64, FUNCTIONS)
 
 
 @intrinsic
 def call_in_sphere_open(typingctx, work, rows, det, extents, w):
     """The stage of `space.in_sphere`."""
-    return call_at(work, IN_SPHERE_OPEN, types.int64, STAGES[IN_SPHERE_OPEN][1])
+    return call_at(work, IN_SPHERE_OPEN, types.int64, FUNCTIONS)

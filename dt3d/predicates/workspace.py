@@ -7,8 +7,8 @@ coordinates of at most 1 nothing overflows, and what underflows is off by 2^-107
 and 2^-1000 G^5 for coordinates of at most G > 1. Beyond 2^200, where G^5 could overflow, the slack is
 infinite: nothing is then decided in floating point.
 
-Then come the addresses of the stages behind the filters (`open_stages`), and behind them is room for the
-integers of the exact stage.
+Then come the addresses of the stages behind the filters (`open_stages`), as far as they are known, and of
+what finds the others. Behind them is room for the integers of the exact stage.
 """
 
 from __future__ import annotations
@@ -16,32 +16,19 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from .layout import (
-    IN_CIRCLE_OPEN,
-    IN_SPHERE_OPEN,
-    INTEGERS_INDEX,
-    ORIENT2D_OPEN,
-    ORIENT3D_OPEN,
-    SLACK_INDEX,
-    WORKSPACE_SIZE,
-)
+from .layout import INTEGERS_INDEX, SLACK_INDEX, WORKSPACE_SIZE
 
 FACTORS = 1000  # exponents of powers of two that are doubles, and so are their reciprocals
-IN_PLANE, IN_SPACE = (ORIENT2D_OPEN, IN_CIRCLE_OPEN), (ORIENT3D_OPEN, IN_SPHERE_OPEN)
 
 
 def work_array(points: np.ndarray) -> np.ndarray:
-    """Return what one thread's predicates of rows of ``points`` work in, float64 (WORKSPACE_SIZE,).
-
-    Those of their dimension, 2 or 3: the stages of others are not compiled.
-    """
-    from .open_stages import address
+    """Return what one thread's predicates of rows of ``points`` work in, float64 (WORKSPACE_SIZE,)."""
+    from .open_stages import FUNCTIONS
 
     w = np.empty(WORKSPACE_SIZE)
-    stages = w.view(np.int64)
-    stages[SLACK_INDEX + 1 : INTEGERS_INDEX] = 0
-    for place in IN_PLANE if points.shape[-1] == 2 else IN_SPACE:
-        stages[place] = address(place)
+    addresses = w.view(np.int64)
+    addresses[SLACK_INDEX + 1 : INTEGERS_INDEX] = 0
+    FUNCTIONS.write(addresses)
     greatest = float(np.abs(points).max(initial=1))
     w[SLACK_INDEX] = 2.0**-1000 * greatest**5 if greatest < 2.0**200 else np.inf
     return w

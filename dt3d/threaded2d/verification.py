@@ -94,9 +94,10 @@ def _count_inside(sites, triangles, apex, perturbed, w):
 def _side(sites, triangle, a, b, w):
     """Where x lies from the line ab, never 0: the first vertex of the triangle that is not on it tells."""
     for j in range(3):
-        sign = orient2d(sites, a, b, triangle[j], w)
-        if sign != 0:
-            return sign
+        if triangle[j] != a and triangle[j] != b:
+            sign = orient2d(sites, a, b, triangle[j], w)
+            if sign != 0:
+                return sign
     return 0
 
 

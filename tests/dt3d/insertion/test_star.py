@@ -71,7 +71,7 @@ def test_both_ways_to_link_find_the_same_neighbors(opened):
     mesh, begin = team.store.mesh, team.store.used + 100
     star.make_tetrahedra(mesh, NEW, scratch, size, facets, FreeSlots(0, 0, begin, begin + 40))
     slots = scratch.slots[:facets]
-    assert star.link(mesh, scratch, facets, count)
+    assert star.link(mesh, scratch, facets, count, team.workers[0].work)
     narrow = neighbors(mesh)[slots].copy()
     neighbors(mesh)[slots, 1:] = 0
     assert star.link_wide(mesh, scratch, facets)

@@ -9,7 +9,7 @@ from pathlib import Path
 import dt3d
 from dt3d._numba import announce
 from dt3d._numba.announce import OTHER, PARTS, part_of
-from dt3d._numba.kernel_cache import Kept
+from dt3d._numba.kept import Kept
 
 COMPILE = """
 import numba

@@ -1,5 +1,6 @@
 """What a second process compiles meanwhile is found on disk; where none can, this one compiles as ever."""
 
+import io
 import subprocess
 import sys
 
@@ -16,8 +17,19 @@ from dt3d._numba.kernel_cache import cached_njit
 def slow(x):
     return 3 * x
 
+@cached_njit
+def seldom(x):
+    return 5 * x
+
 def compile_it():
     slow.compile((types.int64,))
+
+def compile_more():
+    seldom.compile((types.int64,))
+
+def stay():
+    import time
+    time.sleep(600)
 """
 
 PROGRAM = """
@@ -32,11 +44,16 @@ class Listener(event.Listener):
     def on_start(self, e): compiled.append(e.data["dispatcher"].py_func.__name__)
     def on_end(self, e): pass
 
-wait = beside.compiled_beside(m.slow, m.__name__, sys.argv[2])
+wait = beside.compiled_beside(m.slow, m.__name__, sys.argv[2], sys.argv[3])
 wait()
 event.register("numba:compile", Listener())
 assert m.slow(7) == 21
 print(compiled)
+if sys.argv[3] == "compile_more":
+    for child in beside.CHILDREN:
+        child.wait()
+    m.seldom(1)
+    print(compiled)
 """
 
 
@@ -50,15 +67,17 @@ def run(folder, *words):
 @pytest.mark.parametrize(
     ("words", "compiled"),
     [
-        (("2", "compile_it"), "[]"),
-        (("1", "compile_it"), "['slow']"),  # one core: no second process
-        (("2", "no_such_function"), "['slow']"),  # the second process fails
+        (("2", "compile_it", "compile_more"), "[]\n[]"),
+        (("2", "compile_it", "stay"), "[]"),  # it ends with the program
+        (("2", "compile_it", "no_such_function"), "[]"),
+        (("1", "compile_it", "stay"), "['slow']"),  # one core: no second process
+        (("2", "no_such_function", "stay"), "['slow']"),  # the second process fails
     ],
 )
 def test_it_is_found_on_disk_or_compiled(tmp_path, monkeypatch, words, compiled):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
     assert run(tmp_path, *words).strip() == compiled
-    assert run(tmp_path, "1", "compile_it").strip() == "[]"  # there now, whoever compiled it
+    assert run(tmp_path, "1", "compile_it", "stay").strip() == "[]"  # there now, whoever compiled it
 
 
 class Kernel:
@@ -79,24 +98,31 @@ def test_no_process_is_no_error(monkeypatch):
         raise OSError
 
     monkeypatch.setattr(beside.subprocess, "Popen", refuse)
-    assert compiled_beside(Kernel(), "time", "sleep")() is None
+    assert compiled_beside(Kernel(), "time", "sleep", "sleep")() is None
 
 
 @pytest.mark.usefixtures("missing")
 def test_who_is_interrupted_leaves_no_process(monkeypatch):
+    class Interrupted(io.BytesIO):
+        def read(self, size):
+            raise KeyboardInterrupt
+
     class Child:
+        stdout = Interrupted()
         killed = waited = 0
 
         def wait(self):
+            assert self.killed
             self.waited += 1
-            if not self.killed:
-                raise KeyboardInterrupt
 
         def kill(self):
             self.killed += 1
 
     child = Child()
     monkeypatch.setattr(beside.subprocess, "Popen", lambda *_, **__: child)
+    wait = compiled_beside(Kernel(), "time", "sleep", "sleep")
+    assert child in beside.CHILDREN
     with pytest.raises(KeyboardInterrupt):
-        compiled_beside(Kernel(), "time", "sleep")()
-    assert (child.killed, child.waited) == (1, 2)
+        wait()
+    assert (child.killed, child.waited, child.stdout.closed) == (1, 1, True)
+    assert child not in beside.CHILDREN

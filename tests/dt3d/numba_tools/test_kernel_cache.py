@@ -19,7 +19,7 @@ import pytest
 from numba.core import caching
 
 import dt3d
-from dt3d._numba import announce, kernel_cache, numba_cache, sources
+from dt3d._numba import announce, kept, kernel_cache, numba_cache, sources
 
 KERNEL = """
 from .kernel_cache import cached_njit
@@ -51,7 +51,7 @@ class Package:
     def __init__(self, folder):
         self.folder = folder / "kernels_for_tests"
         self.folder.mkdir()
-        for module in (announce, kernel_cache, numba_cache, sources):
+        for module in (announce, kept, kernel_cache, numba_cache, sources):
             shutil.copy(module.__file__, self.folder)
         self.write("__init__", "")
         self.write("kernel", KERNEL)
@@ -191,7 +191,7 @@ def test_without_a_writable_folder_it_works(package, monkeypatch):
     (package.folder / "__pycache__").write_text("a file in place of the folder")
     module = package.load()
     assert module.kernel(3) == 3
-    assert not sys.modules[f"{package.folder.name}.kernel_cache"].Kept.anywhere
+    assert not sys.modules[f"{package.folder.name}.kept"].Kept.anywhere
 
 
 def test_a_folder_that_was_filled_and_cannot_be_written_serves(package, monkeypatch):

@@ -1,13 +1,14 @@
 """What the filters leave open, without the filters: all stages decide by themselves."""
 
+import subprocess
+import sys
+
 import hypothesis.extra.numpy as hnp
 import hypothesis.strategies as st
 import numpy as np
-import pytest
 from hypothesis import given
 
-from dt3d import InternalError
-from dt3d.predicates import open_stages, plane, space, work_array
+from dt3d.predicates import open_stages, work_array
 from dt3d.predicates.workspace import scaled
 
 from .oracle import DIMENSION, POINTS, sign
@@ -33,9 +34,28 @@ def test_each_stage_alone_is_right_about_all_points(points):
         assert stage(corners, det, extents, work_array(case)) == sign(predicate, case)
 
 
-def test_the_workspace_has_the_stages_of_its_dimension():
-    flat, solid = np.eye(4, 2), np.eye(5, 3)
-    assert plane.orient2d(flat, 2, 2, 3, work_array(flat)) == 0
-    assert space.orient3d(solid, 3, 4, 0, 1, work_array(solid)) == 0
-    with pytest.raises(InternalError, match="no address"):
-        space.orient3d(solid, 3, 4, 0, 1, work_array(flat))
+GENERAL = """
+import numpy as np, dt3d
+from dt3d.predicates.layout import FINDER, INTEGERS_INDEX, SLACK_INDEX
+from dt3d.predicates import work_array
+
+def known():
+    words = work_array(np.zeros((1, 3))).view(np.int64)[SLACK_INDEX + 1 : INTEGERS_INDEX]
+    return int((words != 0).sum())
+
+points = np.random.default_rng(0).random((500, 3))
+begun = known()
+for d in (2, 3):
+    tri = dt3d.Delaunay(points[:, :d])
+    tri.find_simplex(np.random.default_rng(1).random((100, d)))
+    assert tri.verify()
+print(begun, known())
+tri.find_simplex(points)
+print(known())
+"""
+
+
+def test_only_what_is_asked_for_is_compiled():
+    done = subprocess.run([sys.executable, "-c", GENERAL], capture_output=True, text=True, check=True)
+    # what finds the others; what ghosts need; and, for points that are vertices, an orientation
+    assert done.stdout.split() == ["1", "2", "3"]
