@@ -152,7 +152,10 @@ def _problem(sites: np.ndarray, status: Status, count: int, capacity: int) -> st
 
 
 def _for_each(count: int, small: bool, work: Callable[[int, int | None], object]) -> None:
-    """Call ``work(k, threads)`` for each k: by threads with one k each, or by this one with all threads."""
+    """Call ``work(k, threads)`` for each k: by threads with one k each, or by this one with all threads.
+
+    Raises what the first k raises that does, whichever thread comes to its own first.
+    """
     busy = min(available_cores(), count)
     if busy < 2 or not (small or count >= available_cores()):
         for k in range(count):
@@ -160,15 +163,22 @@ def _for_each(count: int, small: bool, work: Callable[[int, int | None], object]
         return
     numbers = iter(range(count))
     stopped = False
+    failures: dict[int, Exception] = {}
 
     def some() -> None:
         for k in numbers:
             if stopped:
                 break
-            work(k, 1)
+            try:
+                work(k, 1)
+            except Exception as error:  # a thread with a lower number may be about to fail
+                failures[k] = error
+                stop()
 
     def stop() -> None:
         nonlocal stopped
         stopped = True
 
     run_threads([some] * busy, stop)
+    if failures:
+        raise failures[min(failures)]

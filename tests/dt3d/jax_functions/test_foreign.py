@@ -11,6 +11,8 @@ from dt3d.jax import callback, foreign
 
 from .sets import assert_same, uniform
 
+pytestmark = pytest.mark.usefixtures("on_cpu")
+
 WORDS = "a number is negative"
 
 

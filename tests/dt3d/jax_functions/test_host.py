@@ -123,7 +123,24 @@ def starter():
     whole_arithmetic.end()
 
 
-@pytest.mark.usefixtures("starter")
+def test_the_first_set_that_fails_is_named_whichever_thread_is_first(monkeypatch):
+    monkeypatch.setattr(host, "available_cores", lambda: 3)
+    third_has_failed = threading.Event()
+
+    def work(k, threads):
+        if k == 2:
+            third_has_failed.set()
+        elif k == 1:
+            assert third_has_failed.wait(60)
+        if k > 0:
+            msg = f"set {k}"
+            raise ValueError(msg)
+
+    with pytest.raises(ValueError, match="set 1"):
+        host._for_each(8, True, work)
+
+
+@pytest.mark.usefixtures("starter", "on_cpu")
 @pytest.mark.parametrize("with_the_c_library", [True, False])
 def test_arithmetic_is_whole_where_that_of_xla_is_not(monkeypatch, with_the_c_library):
     if not with_the_c_library:
