@@ -56,7 +56,7 @@ def _is_python(path: str | None) -> bool:
 
 def compiled_beside(
     kernel: Callable[..., object], module: str, function: str, afterwards: str
-) -> Callable[[], None]:
+) -> Callable[[], None] | None:
     """Begin to compile a kernel in a process of its own, unless that is needless or in vain.
 
     Parameters
@@ -70,7 +70,7 @@ def compiled_beside(
 
     Returns
     -------
-    function
+    function, or None where there is no process
         To be called before the kernel is: waits until it is on disk, or the process has ended without it.
     """
     if (
@@ -80,7 +80,7 @@ def compiled_beside(
         or not _is_python(sys.executable)
         or is_kept(kernel)
     ):
-        return lambda: None
+        return None
     program = PROGRAM.format(path=sys.path, module=module, function=function, afterwards=afterwards)
     silent = subprocess.DEVNULL
     try:
@@ -88,7 +88,7 @@ def compiled_beside(
             [sys.executable, "-c", program], stdin=silent, stdout=subprocess.PIPE, stderr=silent
         )
     except OSError:
-        return lambda: None
+        return None
     announce(module)
     CHILDREN.append(child)
 

@@ -18,7 +18,7 @@ from ..ordering.along_curve import along_curve_in_space, bounds, gather
 from ..ordering.brio import insertion_rounds
 from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
-from .first_call import compile_conflicts, insert_beside
+from .first_call import insert_beside
 from .mesh import FREE, MOST_SLOTS, aligned, vertices
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
@@ -93,7 +93,6 @@ def triangulate(
     store = Store(rows, first, slots, block, LEAST_SLOTS_PER_SITE * n)
     tell = _told(report, n)
     team = Team(threads, store, bounds(sites), tell)
-    compile_conflicts()
     wait_for_insert()
     for begin, end in zip([0, *ends], ends, strict=False):
         team.insert_round(todo[begin:end])

@@ -13,22 +13,35 @@ import numpy as np
 from .._numba.beside import compiled_beside
 from ..predicates.layout import CONFLICTS, IN_SPHERE_OPEN, LINK_WIDE, ORIENT3D_OPEN
 from ..predicates.open_stages import FUNCTIONS
+from .compaction import count_finite, number_finite, write_finite
 from .insert import insert
 from .store import Store
 from .worker import Scale, scratch_for
 
 
+def _store() -> Store:
+    return Store(np.zeros(16), np.arange(4, dtype=np.int32), slots=5, block=1)
+
+
 def compile_insert() -> None:
     """Compile it for the types that arguments have, or load it from disk."""
-    store = Store(np.zeros(16), np.arange(4, dtype=np.int32), slots=5, block=1)
     todo, state, work = np.empty(0, np.uint32), np.empty(0, np.int64), np.empty(0)
-    arguments = store.mesh, todo, state, scratch_for(1), Scale(0.0, 0.0), work
+    arguments = _store().mesh, todo, state, scratch_for(1), Scale(0.0, 0.0), work
     insert.compile(tuple(map(numba.typeof, arguments)))
 
 
 def compile_conflicts() -> None:
     """Compile, or load, what `insert` calls by address in each run."""
     FUNCTIONS.address(CONFLICTS)
+
+
+def compile_compaction() -> None:
+    """Compile it by calling it for no tetrahedra."""
+    mesh, number = _store().mesh, np.empty(0, np.int32)
+    out = np.empty((0, 4), np.int32)
+    count_finite(mesh, 0, 0)
+    number_finite(mesh, 0, 0, 0, number)
+    write_finite(mesh, 0, 0, number, number, out, out)
 
 
 def compile_seldom() -> None:
@@ -38,5 +51,17 @@ def compile_seldom() -> None:
 
 
 def insert_beside() -> Callable[[], None]:
-    """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it."""
-    return compiled_beside(insert, __name__, compile_insert.__name__, compile_seldom.__name__)
+    """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it.
+
+    While it waits it compiles what this process needs afterwards.
+    """
+    wait = compiled_beside(insert, __name__, compile_insert.__name__, compile_seldom.__name__)
+    if wait is None:
+        return compile_conflicts
+
+    def meanwhile() -> None:
+        compile_conflicts()
+        compile_compaction()
+        wait()
+
+    return meanwhile

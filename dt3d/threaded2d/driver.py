@@ -24,6 +24,7 @@ from .correction import correct
 from .first import first_triangle
 from .illegal_edges import marked
 from .in_place import star
+from .in_place.first_call import steps_beside
 from .input_subdivision import insertion_order
 from .lookahead import alone
 from .mesh import ROOTS, Store
@@ -85,6 +86,7 @@ def triangulate(
         len(points) * (WRITTEN_IN_PLACE if options.in_place else WRITTEN_WITH_HISTORY),
         len(points) * (RESERVED_IN_PLACE if options.in_place else RESERVED_WITH_HISTORY),
     )
+    wait_for_steps = steps_beside() if options.in_place else None
     seconds = {}
     begun = time.perf_counter()
     # what never waits gains nothing from more threads than processors
@@ -103,6 +105,8 @@ def triangulate(
     order, bounds = circumcircle.with_head_start(order, bounds, options)
     schedule = share(order, bounds, fixed=options.fixed_parts)
     run = Run(options, store, schedule)
+    if wait_for_steps is not None:
+        wait_for_steps()
     ticks, clock = steps.now(), time.perf_counter()
     run.to_the_end()
     elapsed = time.perf_counter() - clock
