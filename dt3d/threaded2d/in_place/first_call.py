@@ -1,4 +1,4 @@
-"""The first call of a new machine: another process compiles the steps in place, half of what is to be compiled.
+"""The first call of a new machine: another process compiles the steps in place, half of all there is.
 
 Then that process compiles what sites in general position hardly ever ask for.
 """
