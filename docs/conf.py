@@ -30,8 +30,7 @@ extensions = [
 ]
 
 root_doc = "docs/index"
-include_patterns = ["*.md", "docs/**.md", "examples/README.md", "scanvec/**/README.md", "dt3d/**/README.md"]
-include_patterns += ["scanvec/README.md", "dt3d/README.md"]
+include_patterns = ["*.md", "docs/**.md", "**/README.md"]
 exclude_patterns = [".*", "docs/_build", "build", "dist", "out", "**/__pycache__"]
 source_suffix = {".md": "markdown"}
 
@@ -46,9 +45,22 @@ highlight_language = "none"  # blocks without a name are commands and drawings
 autodoc_typehints = "none"  # docstrings say shapes and dtypes, which types do not
 autodoc_member_order = "bysource"
 numpydoc_show_class_members = False  # autodoc lists them, where a page asks for them
-numpydoc_validation_checks: set[str] = set()
+autosummary_generate = False  # numpydoc brings it; there are no pages to generate
 
 nitpicky = True
+nitpick_ignore_regex = [
+    # other packages: their sites would have to be fetched for links
+    (r"py:.*", r"(scipy|jax|meshio)\..*"),
+]
+nitpick_ignore = [
+    # fields, which the section Attributes of their class lists; they have no entry of their own
+    *[("py:obj", name) for name in ["cost", "face_expansions", "identity", "ledger", "points", "scopes", "waves"]],
+    ("py:obj", "Mesh.count"),
+    ("py:obj", "Mesh.status"),
+    # of dt3d.Delaunay, whose members threaded2d.Delaunay has without a list of its own
+    ("py:obj", "duplicates"),
+    ("py:obj", "subset"),
+]
 
 suppress_warnings = [
     "myst.header",  # README has a part of the third level before the first of the second
@@ -61,10 +73,13 @@ html_title = "dt3d and scanvec"
 html_show_sourcelink = False
 html_copy_source = False
 html_additional_pages = {"index": "redirect.html"}  # the first page is docs/index.html
+html_sidebars = {page: [] for page in ["CHANGELOG", "docs/first_steps", "examples/README", "source/**"]}
+toc_object_entries_show_parents = "hide"
 templates_path = ["_templates"]
 html_theme_options = {
     "navbar_align": "left",
     "show_prev_next": False,
+    "show_toc_level": 2,
     "secondary_sidebar_items": ["page-toc"],
     "footer_start": ["copyright"],
     "footer_end": [],

@@ -47,12 +47,12 @@ class Delaunay(SciPyMembers):
                                               compiled, from 2,000 sites that fill space evenly; else vectors
     ``Delaunay(points, machine=S)``           in space: extrapolation in vectors, exact search; a ledger of
                                               its steps
-    ``Delaunay(points, machine=S,             in space: the paper of Teng, Sullivan, Beichl and Puppo (1993),
-    preset="teng1993")``                      their boxes, random perturbation and consistency check
-    ``Delaunay(points, machine=S,             in space: the same with cells that are pruned, and a tree where
-    robustness="perturb")``                   sites are uneven
-    ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
-    method="batch", preset="kohout2004")``    methods have names, too
+    ``Delaunay(points, machine=S,``           in space: the paper of Teng, Sullivan, Beichl and Puppo (1993),
+    ``preset="teng1993")``                    their boxes, random perturbation and consistency check
+    ``Delaunay(points, machine=S,``           in space: the same with cells that are pruned, and a tree where
+    ``robustness="perturb")``                 sites are uneven
+    ``threaded2d.Delaunay(points2d,``         in the plane: Kohout, Kolingerova and Zara (2004), whose other
+    ``method="batch", preset="kohout2004")``  methods have names, too
     ========================================  ===========================================================
 
     Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same

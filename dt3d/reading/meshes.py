@@ -40,7 +40,7 @@ SURFACES = (".ply", ".stl", ".obj", ".off", ".vtp", ".vti", ".vts", ".vtr")
 
 @dataclass(frozen=True)
 class Mesh:
-    """Tetrahedra from a file, as `draw` and `to_pyvista` take them.
+    """Tetrahedra from a file, as `read_mesh` gives them.
 
     Attributes
     ----------
