@@ -26,7 +26,7 @@ class CommandLine(SphinxDirective):
         """The block."""
         words = self.arguments[0].split() if self.arguments else []
         # as wide as a page; a pipe has no width of its own
-        surroundings = os.environ | {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb"}
+        surroundings = os.environ | {"COLUMNS": "96", "NO_COLOR": "1", "TERM": "dumb"}
         done = subprocess.run(
             [sys.executable, "-m", "dt3d", *words], capture_output=True, text=True, env=surroundings, check=False
         )

@@ -70,6 +70,8 @@ suppress_warnings = [
 
 html_theme = "pydata_sphinx_theme"
 html_title = "dt3d and scanvec"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_additional_pages = {"index": "redirect.html"}  # the first page is docs/index.html
