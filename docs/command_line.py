@@ -1,7 +1,6 @@
 """The directive `dt3d`: what a command line of dt3d prints, run while the page is made.
 
-    ```{dt3d} triangulate --help
-    ```
+Its argument is what stands after ``dt3d``, such as ``triangulate --help``.
 """
 
 from __future__ import annotations
@@ -27,11 +26,11 @@ class CommandLine(SphinxDirective):
         words = self.arguments[0].split() if self.arguments else []
         # as wide as a page; a pipe has no width of its own
         surroundings = os.environ | {"COLUMNS": "96", "NO_COLOR": "1", "TERM": "dumb"}
-        done = subprocess.run(
-            [sys.executable, "-m", "dt3d", *words], capture_output=True, text=True, env=surroundings, check=False
-        )
+        command = [sys.executable, "-m", "dt3d", *words]
+        done = subprocess.run(command, capture_output=True, text=True, env=surroundings, check=False)
         if done.returncode:
-            raise self.error(f"dt3d {' '.join(words)} ended with {done.returncode}: {done.stderr}")
+            msg = f"dt3d {' '.join(words)} ended with {done.returncode}: {done.stderr}"
+            raise self.error(msg)
         text = "\n".join(line.rstrip() for line in done.stdout.splitlines()).strip("\n")
         shown = f"$ {' '.join(['dt3d', *words])}\n{text}"
         return [nodes.literal_block(shown, shown, language="none")]

@@ -1,7 +1,7 @@
 """How Sphinx makes the site: `make docs` runs it, without a network.
 
-The source folder is the root of the repository. So the READMEs, ARCHITECTURE.md and CHANGELOG.md are read where
-they stand, each is a page, and the links and pictures in them work on the site as they do in the repository.
+The source folder is the root of the repository. So the READMEs, ARCHITECTURE.md and CHANGELOG.md are read
+where they stand, each is a page, and their links and pictures work as they do in the repository.
 """
 
 from __future__ import annotations
@@ -54,9 +54,14 @@ nitpick_ignore_regex = [
 ]
 nitpick_ignore = [
     # fields, which the section Attributes of their class lists; they have no entry of their own
-    *[("py:obj", name) for name in ["cost", "face_expansions", "identity", "ledger", "points", "scopes", "waves"]],
     ("py:obj", "Mesh.count"),
     ("py:obj", "Mesh.status"),
+    ("py:obj", "cost"),
+    ("py:obj", "face_expansions"),
+    ("py:obj", "identity"),
+    ("py:obj", "ledger"),
+    ("py:obj", "points"),
+    ("py:obj", "waves"),
     # of dt3d.Delaunay, whose members threaded2d.Delaunay has without a list of its own
     ("py:obj", "duplicates"),
     ("py:obj", "subset"),

@@ -1,7 +1,7 @@
 """Links to files of the repository that are no pages: programs, as pages that show them.
 
-In Markdown a link to a file becomes a download. A program is read rather than kept, so each that a page links to
-gets a page with its text, in colours, below ``source/``.
+In Markdown a link to a file becomes a download. A program is read rather than kept, so each that a page links
+to gets a page with its text, in colours, below ``source/``.
 """
 
 from __future__ import annotations

@@ -58,6 +58,13 @@ def verify(
         integers, have another shape, or name what there is not.
     MemoryError
         If the system does not have the memory.
+
+    Examples
+    --------
+    >>> from dt3d.threaded2d import verify
+    >>> sites = [[0, 0], [2, 0], [0, 2], [0.5, 0.5]]
+    >>> bool(verify(sites[:3], [[0, 1, 2]])), bool(verify(sites, [[0, 1, 2]]))
+    (True, False)
     """
     return prove(
         PLANE,
