@@ -25,8 +25,10 @@ extensions = [
     "myst_parser",  # pages in Markdown
     "sphinx.ext.autodoc",  # API pages from docstrings
     "numpydoc",  # whose sections are NumPy's
-    "command_line",  # what the commands say of themselves; beside this file
-    "repository",  # links to files that are no pages; beside this file
+    # in this folder
+    "breaks",  # wide tables of code
+    "command_line",  # what the commands say of themselves
+    "repository",  # links to files that are no pages
 ]
 
 root_doc = "docs/index"
