@@ -23,8 +23,8 @@ def allow(app: Sphinx, doctree: nodes.document, docname: str) -> None:
         for code in list(cell.findall(nodes.literal)):
             text = code.astext()
             if len(text) > LONG:
-                html = BREAK.sub("<wbr>", escape(text))
-                code.replace_self(nodes.raw("", f'<code class="docutils literal">{html}</code>', format="html"))
+                html = f'<code class="docutils literal">{BREAK.sub("<wbr>", escape(text))}</code>'
+                code.replace_self(nodes.raw("", html, format="html"))
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
