@@ -1,4 +1,5 @@
 # Two commands matter: `make demo` and `make test`. Each sets up what it needs in .venv, once.
+# `make docs` makes the site, docs/_build/html/index.html, without a network.
 # `make lint` is the part of `make test` that takes seconds: rules, format and types.
 # `make fuzz TIME=3600` looks for inputs that fail, for as many seconds.
 
@@ -14,10 +15,15 @@ READY := $(VENV)/.ready
 # Files of tests run side by side, one a core; a file stays together, so that what it compiles is compiled once.
 TOGETHER := -n auto --dist loadfile
 
-.PHONY: demo test test-all fuzz lint clean
+.PHONY: demo docs test test-all fuzz lint clean
 
 demo: $(READY)
 	$(BIN)/dt3d demo --out out
+
+# -W: a warning is an error; --keep-going: all of them are shown
+docs: $(READY)
+	$(BIN)/python -m sphinx -b html -c docs -W --keep-going -q . docs/_build/html
+	@echo "docs/_build/html/index.html"
 
 test: lint
 	$(BIN)/python -m pytest $(TOGETHER)
@@ -36,7 +42,7 @@ lint: $(READY)
 	$(BIN)/mypy
 
 clean:
-	rm -rf $(VENV) out build dist *.egg-info .pytest_cache .hypothesis .ruff_cache .mypy_cache
+	rm -rf $(VENV) out build dist docs/_build *.egg-info .pytest_cache .hypothesis .ruff_cache .mypy_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # Debian ships a venv module that cannot install pip; then the pip outside puts one inside.

@@ -10,6 +10,15 @@ class DegenerateInputError(ValueError):
     ----------
     dimension : int
         Of the sites' affine hull: 0, 1 or 2; 3 where there is volume.
+
+    Examples
+    --------
+    >>> import dt3d
+    >>> try:
+    ...     dt3d.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    ... except dt3d.DegenerateInputError as error:
+    ...     print(error.dimension)
+    2
     """
 
     def __init__(self, message: str, dimension: int) -> None:

@@ -65,7 +65,15 @@ class Geometry(Triangulation):
 
     @property
     def circumradii(self) -> np.ndarray:
-        """The radius of each simplex's circumscribed sphere, in the plane circle: float64 (m,)."""
+        """The radius of each simplex's circumscribed sphere, in the plane circle: float64 (m,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [3, 0], [0, 4]])
+        >>> tri.circumradii.tolist(), tri.circumcenters.tolist()
+        ([2.5], [[1.5, 2.0]])
+        """
         return self._circumspheres[1]
 
     @cached_property

@@ -61,6 +61,16 @@ def write_mesh(
     OSError, ValueError, ImportError
         As `check_mesh_path` says, if the file cannot be written, if .stl cannot hold the coordinates, and if
         point data have not an entry per site.
+
+    Examples
+    --------
+    >>> import tempfile, dt3d
+    >>> from dt3d.files import read_mesh, write_mesh
+    >>> tri = dt3d.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_mesh(tri, f"{folder}/mesh.vtu")
+    ...     print(len(read_mesh(f"{folder}/mesh.vtu").simplices))
+    1
     """
     path = check_mesh_path(path)
     content = Content(tri, check_point_data(point_data or {}, len(tri.points)), compress)
@@ -77,6 +87,12 @@ def check_mesh_path(path: str | Path) -> Path:
         For an extension that `write_mesh` does not know.
     OSError
         If the folder does not exist or may not be written, or the file may not be replaced.
+
+    Examples
+    --------
+    >>> from dt3d.files import check_mesh_path
+    >>> check_mesh_path("mesh.vtu").suffix
+    '.vtu'
     """
     return check_target(path, WRITERS, "write a mesh to")
 

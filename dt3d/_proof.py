@@ -77,6 +77,13 @@ class Verification:
         long as an earlier one is broken.
     remarks : tuple of str
         What is worth knowing and breaks nothing.
+
+    Examples
+    --------
+    >>> import dt3d
+    >>> proof = dt3d.Delaunay([[0, 0], [2, 0], [0, 2]]).verify()
+    >>> bool(proof), {broken for _, broken in proof.invariants}
+    (True, {0})
     """
 
     invariants: tuple[tuple[str, int | None], ...]

@@ -79,7 +79,7 @@ class References(tuple[Reference, ...]):
 
 
 def references() -> References:
-    """The papers whose methods are here, to be cited where they are used; `CITATION.cff` has the software.
+    """The papers whose methods are here, to be cited where they are used; ``CITATION.cff`` has the software.
 
     Returns
     -------

@@ -32,32 +32,79 @@ class SciPyMembers(Geometry):
 
     @property
     def npoints(self) -> int:
-        """The number of sites, n."""
+        """The number of sites, n.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3], [0, 0]])
+        >>> tri.npoints, tri.nsimplex
+        (5, 2)
+        """
         return len(self.points)
 
     @property
     def nsimplex(self) -> int:
-        """The number of simplices, m."""
+        """The number of simplices, m.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.nsimplex == len(tri.simplices)
+        True
+        """
         return len(self.simplices)
 
     @cached_property
     def min_bound(self) -> np.ndarray:
-        """The least coordinates of the sites, float64 (d,)."""
+        """The least coordinates of the sites, float64 (d,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.min_bound.tolist(), tri.max_bound.tolist()
+        ([0.0, 0.0], [3.0, 3.0])
+        """
         return frozen(self.points.min(axis=0))
 
     @cached_property
     def max_bound(self) -> np.ndarray:
-        """The greatest coordinates of the sites, float64 (d,)."""
+        """The greatest coordinates of the sites, float64 (d,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.max_bound.tolist()
+        [3.0, 3.0]
+        """
         return frozen(self.points.max(axis=0))
 
     @property
     def furthest_site(self) -> bool:
-        """Whether this is a triangulation of furthest sites: False."""
+        """Whether this is a triangulation of furthest sites: False.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> dt3d.Delaunay([[0, 0], [2, 0], [0, 2]]).furthest_site
+        False
+        """
         return False
 
     @cached_property
     def good(self) -> np.ndarray:
-        """Qhull's marks of good facets, int32 (m,): 1 for all, as in SciPy by default."""
+        """Qhull's marks of good facets, int32 (m,): 1 for all, as in SciPy by default.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.good.tolist()
+        [1, 1]
+        """
         return frozen(np.ones(len(self.simplices), np.int32))
 
     @cached_property
@@ -128,6 +175,13 @@ class SciPyMembers(Geometry):
 
         Qhull leaves sites out where rounding hides them. Here only duplicates are left out: the first and
         the last column are `duplicates`.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3], [0, 0]])
+        >>> tri.coplanar[:, [0, 2]].tolist(), tri.duplicates.tolist()
+        ([[4, 0]], [[4, 0]])
         """
         unused, used = self.duplicates.T
         return frozen(np.column_stack([unused, self.vertex_to_simplex[used], used]).astype(np.int32))
@@ -158,12 +212,29 @@ class SciPyMembers(Geometry):
 
     @property
     def paraboloid_scale(self) -> float:
-        """The scale s of the paraboloid ``s |x|^2 + t`` onto which sites are lifted, as Qhull chooses it."""
+        """The scale s of the paraboloid ``s |x|^2 + t`` onto which sites are lifted, as Qhull chooses it.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> x, s, t = tri.points[3], tri.paraboloid_scale, tri.paraboloid_shift
+        >>> bool(abs(tri.lift_points(x)[-1] - (s * x @ x + t)) < 1e-12)
+        True
+        """
         return self._paraboloid[0]
 
     @property
     def paraboloid_shift(self) -> float:
-        """The shift t of the paraboloid ``s |x|^2 + t`` onto which sites are lifted, as Qhull chooses it."""
+        """The shift t of the paraboloid ``s |x|^2 + t`` onto which sites are lifted, as Qhull chooses it.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> bool(tri.paraboloid_shift == tri.lift_points([0, 0])[-1])
+        True
+        """
         return self._paraboloid[1]
 
     @cached_property
@@ -176,6 +247,15 @@ class SciPyMembers(Geometry):
 
         A point (x, z) lies on that of simplex i if ``equations[i, :-1] @ (*x, z) + equations[i, -1] == 0``.
         Normals point away from the hull of the lifted sites: their last coordinate is negative.
+
+        Examples
+        --------
+        >>> import numpy as np, dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> normal, offset = tri.equations[0, :-1], tri.equations[0, -1]
+        >>> lifted = tri.lift_points(tri.points[tri.simplices[0]])
+        >>> bool(np.abs(lifted @ normal + offset).max() < 1e-12), bool(normal[-1] < 0)
+        (True, True)
         """
         s, t = self._paraboloid
         return frozen(_lifting.hyperplanes(self.points, self.simplices, s, t))
@@ -192,6 +272,13 @@ class SciPyMembers(Geometry):
         ------
         ValueError
             If they are not real and of shape (..., d).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.lift_points([[0, 0], [1, 1]]).shape
+        (2, 3)
         """
         points, shape = check_queries(x, self.ndim)
         s, t = self._paraboloid
@@ -211,6 +298,14 @@ class SciPyMembers(Geometry):
         ------
         ValueError
             If they are not real and of shape (..., d).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> distances = tri.plane_distance([[0.5, 0.5], [9, 9]])
+        >>> distances.shape, (distances > 0).any(axis=1).tolist()
+        ((2, 2), [True, False])
         """
         lifted = self.lift_points(xi)
         distances: np.ndarray = lifted @ self.equations[:, :-1].T + self.equations[:, -1]
@@ -269,6 +364,14 @@ class SciPyMembers(Geometry):
         ------
         RuntimeError
             Always.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> import numpy as np
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> dt3d.Delaunay(np.concatenate([tri.points, [[1, 1.5]]]))
+        <dt3d.Delaunay: 5 sites, 4 triangles>
         """
         msg = (
             "sites cannot be added to a finished triangulation; triangulate all of them again, as of "
@@ -277,7 +380,16 @@ class SciPyMembers(Geometry):
         raise RuntimeError(msg)
 
     def close(self) -> None:
-        """As SciPy's class, where it ends an incremental triangulation; nothing is open here."""
+        """As SciPy's class, where it ends an incremental triangulation; nothing is open here.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri.close()
+        >>> len(tri.simplices)
+        2
+        """
 
     def to_scipy(self) -> scipy.spatial.Delaunay:
         """The same triangulation as an object of SciPy's class, for functions that ask for one.

@@ -80,6 +80,13 @@ class InsertionStatistics:
         Always 0: every decision is exact.
     seconds : dict of str to float
         Wall time by phase, compilation included.
+
+    Examples
+    --------
+    >>> import numpy as np, dt3d
+    >>> stats = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), threads=1).stats
+    >>> stats.threads, stats.inconsistencies, sorted(stats.seconds)[-1]
+    (1, 0, 'total')
     """
 
     walked: int
@@ -107,6 +114,14 @@ class Progress:
         Found so far.
     seconds : float
         Wall time since the call.
+
+    Examples
+    --------
+    >>> import numpy as np, dt3d
+    >>> seen = []
+    >>> _ = dt3d.Delaunay(np.random.default_rng(0).random((100, 3)), callback=seen.append)
+    >>> seen[-1].remaining, seen[-1].tetrahedra > 400
+    (0, True)
     """
 
     iteration: int

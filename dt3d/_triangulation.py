@@ -59,12 +59,27 @@ class Triangulation(Result):
 
     @property
     def ndim(self) -> int:
-        """The dimension: 2 in the plane, 3 in space."""
+        """The dimension: 2 in the plane, 3 in space.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> dt3d.Delaunay([[0, 0], [2, 0], [0, 2]]).ndim
+        2
+        """
         return int(self.points.shape[1])
 
     @property
     def triangles(self) -> np.ndarray:
-        """In the plane only, the same as `simplices`: counter-clockwise, int32 (m, 3)."""
+        """In the plane only, the same as `simplices`: counter-clockwise, int32 (m, 3).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2]])
+        >>> tri.triangles is tri.simplices
+        True
+        """
         if self.ndim != 2:
             self._only_elsewhere("triangles")
         return self.simplices

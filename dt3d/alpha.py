@@ -93,6 +93,13 @@ class AlphaComplex:
             Its row in ``simplices[dimension]``.
         values : float64 (m,)
             In ascending order.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> alpha = dt3d.Delaunay([[0, 0], [4, 0], [0, 3]]).alpha_complex()
+        >>> [array.tolist() for array in alpha.order()]
+        [[0, 0, 0, 1, 1, 1, 2], [0, 1, 2, 1, 2, 0, 0], [0.0, 0.0, 0.0, 2.25, 4.0, 6.25, 6.25]]
         """
         sizes = [len(array) for array in self.values]
         dimensions = np.repeat(np.arange(len(sizes), dtype=np.int8), sizes)
@@ -111,6 +118,13 @@ class AlphaComplex:
         """The boundary of each simplex as a column, in the order of the filtration: int8 (m, m), 1 per face.
 
         What programs reduce for persistent homology with coefficients modulo 2. Columns of sites are empty.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> alpha = dt3d.Delaunay([[0, 0], [4, 0], [0, 3]]).alpha_complex()
+        >>> alpha.boundary_matrix().toarray().sum(axis=0).tolist()
+        [0, 0, 0, 2, 2, 2, 3]
         """
         from scipy.sparse import csc_array
 
@@ -135,6 +149,14 @@ class AlphaComplex:
         ------
         ImportError
             If GUDHI is not installed; it is with ``pip install gudhi``.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> alpha = dt3d.Delaunay([[0, 0], [4, 0], [0, 3]]).alpha_complex()
+        >>> tree = alpha.to_gudhi()
+        >>> tree.num_simplices(), tree.filtration([0, 1])
+        (7, 4.0)
         """
         try:
             from gudhi import SimplexTree

@@ -39,24 +39,25 @@ class Delaunay(SciPyMembers):
 
     Which call runs what:
 
-    ========================================  ===========================================================
-    call                                      engine
-    ========================================  ===========================================================
-    ``Delaunay(points)``                      insertion by threads on this CPU, in the plane and in space
-    ``Delaunay(points, method=E)``            in space: extrapolation on ``scanvec.Device()``, whole steps
-                                              compiled, from 2,000 sites that fill space evenly; else vectors
-    ``Delaunay(points, machine=S)``           in space: extrapolation in vectors, exact search; a ledger of
-                                              its steps
-    ``Delaunay(points, machine=S,             in space: the paper of Teng, Sullivan, Beichl and Puppo (1993),
-    preset="teng1993")``                      their boxes, random perturbation and consistency check
-    ``Delaunay(points, machine=S,             in space: the same with cells that are pruned, and a tree where
-    robustness="perturb")``                   sites are uneven
-    ``threaded2d.Delaunay(points2d,           in the plane: Kohout, Kolingerova and Zara (2004), whose other
-    method="batch", preset="kohout2004")``    methods have names, too
-    ========================================  ===========================================================
+    =============================================  ===========================================================
+    call                                           engine
+    =============================================  ===========================================================
+    ``Delaunay(points)``                           insertion by threads on this CPU, in the plane and in space
+    ``Delaunay(points, method=E)``                 in space: extrapolation on ``scanvec.Device()``, whole
+                                                   steps compiled, from 2,000 sites that fill space evenly;
+                                                   else vectors
+    ``Delaunay(points, machine=S)``                in space: extrapolation in vectors, exact search; a ledger
+                                                   of its steps
+    ``Delaunay(points, machine=S, preset=T)``      in space: the paper of Teng, Sullivan, Beichl and Puppo
+                                                   (1993), their boxes, random perturbation and check
+    ``Delaunay(points, machine=S, robustness=P)``  in space: the same with cells that are pruned, and a tree
+                                                   where sites are uneven
+    ``threaded2d.Delaunay(points2d, preset=K)``    in the plane: Kohout, Kolingerova and Zara (2004), whose
+                                                   methods have names, too
+    =============================================  ===========================================================
 
-    Here E is "extrapolation" and S is ``scanvec.Simulated(processors=32)``. The exact engines find the same
-    simplices.
+    Here E is "extrapolation", T "teng1993", P "perturb", K "kohout2004", and S is
+    ``scanvec.Simulated(processors=32)``. The exact engines find the same simplices.
 
     The result stays as it was computed: its arrays are read-only, and its attributes cannot be assigned. Take
     a copy of an array to change it, and `subset` for a part of the simplices. Below, d is 2 or 3.

@@ -1,6 +1,6 @@
-"""The accessor `dt3d` of PyVista's datasets: ``cloud.dt3d.delaunay()``.
+"""The accessor ``dt3d`` of PyVista's datasets: ``cloud.dt3d.delaunay()``.
 
-From PyVista 0.48 on, where `dt3d` is installed, datasets have it without an import: PyVista finds this module
+From PyVista 0.48 on, where dt3d is installed, datasets have it without an import: PyVista finds this module
 by its entry point when a dataset is first asked for ``dt3d``. ``import dt3d.pyvista`` registers it, too.
 
 Results have the points of the dataset, with their numbers and all of its point data.

@@ -120,6 +120,14 @@ class Subset(Geometry):
         ----------
         keep : bool (k,), or int (l,)
             A mask of the simplices of this part, or their rows. `kept` of the result has rows of the whole.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> part = tri.subset([1, 0])
+        >>> part.subset([0]).kept.tolist()
+        [1]
         """
         return Subset(self.whole, self.kept[check_keep(keep, len(self.kept))])
 

@@ -32,7 +32,7 @@ def verify(
 
     True if and only if they are: each site is a vertex or equals one, the tetrahedra cover the convex hull
     without overlap and meet face to face, and no site is inside a circumsphere. The sentences of the outcome
-    imply that together, not each alone; `dt3d._proof` shows why. A sentence that has no meaning while an
+    imply that together, not each alone; ``dt3d._proof`` shows why. A sentence that has no meaning while an
     earlier one is broken is reported as not checked.
 
     Parameters

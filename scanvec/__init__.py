@@ -13,7 +13,7 @@ the model in section 2.3.
 >>> cm.ledger.steps
 1
 
-G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990; Teng et al. 1993, section 2.3.
+The book is G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990.
 """
 
 from __future__ import annotations

@@ -29,6 +29,15 @@ class Segments:
         The number of the segment of each element.
     lengths, starts : Vector of int32, length m
         Elements in each segment, and the index of its first one.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> device = sv.Device()
+    >>> segments = sv.Segments.from_lengths(device.vector([3, 2]))
+    >>> v = device.vector([5, 1, 3, 4, 3])
+    >>> sv.reduce(v, sv.ADD, segments)
+    Vector([9 7], dtype=int64, Device())
     """
 
     heads: Vector
@@ -38,7 +47,14 @@ class Segments:
 
     @property
     def machine(self) -> Machine:
-        """Where the vectors live."""
+        """Where the vectors live.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> sv.Segments.from_lengths(sv.Device().vector([3, 2])).machine
+        Device()
+        """
         return self.heads.machine
 
     @property

@@ -30,6 +30,13 @@ class Vector:
         Where the elements live.
     dtype : numpy.dtype
         bool, int8 ... int64, uint8 ... uint64, float16, float32 or float64.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> v = sv.Device().vector([5, 1, 3])
+    >>> v * 2 + 1
+    Vector([11  3  7], dtype=int64, Device())
     """
 
     __slots__ = ("_block", "_n", "machine")
@@ -43,12 +50,26 @@ class Vector:
 
     @property
     def dtype(self) -> np.dtype[np.generic]:
-        """What each element is: bool, an integer or a float."""
+        """What each element is: bool, an integer or a float.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> sv.Device().vector([5, 1, 3], "int16").dtype
+        dtype('int16')
+        """
         return np.dtype(self._block.dtype)
 
     @property
     def shape(self) -> tuple[int]:
-        """(n,), as NumPy has it."""
+        """(n,), as NumPy has it.
+
+        Examples
+        --------
+        >>> import scanvec as sv
+        >>> sv.Device().vector([5, 1, 3]).shape
+        (3,)
+        """
         return (self._n,)
 
     def __len__(self) -> int:

@@ -19,6 +19,11 @@ PAGES = sorted(
     if not any(part.startswith(".") for part in path.relative_to(ROOT).parts)
 )
 
+# those that are written for the site; the others it shows as they are
+SITE = [name for name in PAGES if name.startswith("docs/")]
+
+PROGRAMS = {name: programs(page(name)) for name in SITE if programs(page(name))}
+
 PAPERS = ("Teng et al. 1993", "Kohout et al. 2004")
 
 
@@ -45,6 +50,32 @@ def test_the_programs_of_the_readme(tmp_path, monkeypatch):
     assert sv.pack(v, v > 3).to_numpy().tolist() == [5, 4, 9, 6]
     sums = sv.reduce(names["copies"], sv.ADD, names["segments"])
     assert sums.to_numpy().tolist() == [25, 1, 9, 16, 9, 81, 4, 36]
+
+
+def test_what_is_typed_on_the_pages_of_the_site():
+    typed = {name: sessions(page(name)) for name in SITE if sessions(page(name))}
+    assert len(typed) >= 3
+    for name, text in typed.items():
+        found = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)
+        assert found.examples
+        assert doctest.DocTestRunner().run(found).failed == 0, name
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_the_programs_of_the_site(name, tmp_path, monkeypatch):
+    """Each alone; those that are done in seconds."""
+    monkeypatch.chdir(tmp_path)
+    for program in PROGRAMS[name]:
+        if "machine=" not in program:
+            run([program])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in PROGRAMS if "machine=" in page(name)])
+def test_all_programs_of_the_site(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for program in PROGRAMS[name]:
+        run([program])
 
 
 @pytest.mark.slow

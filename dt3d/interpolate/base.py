@@ -85,6 +85,13 @@ class Interpolator:
         ------
         ValueError
             If the points are not real, or of another shape.
+
+        Examples
+        --------
+        >>> from dt3d.interpolate import Linear
+        >>> f = Linear([[0, 0], [1, 0], [0, 1], [1, 1]], [0, 1, 2, 3])
+        >>> f([[0.5, 0.25]]).tolist(), f(0.5, 0.25).tolist(), f(0.5, [0.25, 0.5]).tolist()
+        ([1.0], 1.0, [1.0, 1.5])
         """
         points, shape = self._queries(xi)
         out = self._evaluate(points, self._columns())

@@ -92,6 +92,13 @@ class Linear(Interpolator):
         -------
         float64 or complex128 (..., d)
             The shape of the values there, and the d derivatives. NaN outside.
+
+        Examples
+        --------
+        >>> from dt3d.interpolate import Linear
+        >>> f = Linear([[0, 0], [1, 0], [0, 1], [1, 1]], [0, 1, 2, 3])
+        >>> f.gradient([[0.3, 0.2], [2, 2]]).tolist()
+        [[1.0, 2.0], [nan, nan]]
         """
         points, shape = self._queries(xi)
         found = self._located(points)

@@ -98,6 +98,13 @@ class NaturalNeighbor(Interpolator):
         -------
         scipy.sparse.csr_array, float64 (k, n)
             Rows sum to 1; those of points outside are empty. No weight is negative.
+
+        Examples
+        --------
+        >>> from dt3d.interpolate import NaturalNeighbor
+        >>> f = NaturalNeighbor([[0, 0], [2, 0], [0, 2], [2, 2]], [0, 1, 2, 3])
+        >>> f.weights([[1, 1]]).toarray().round(12).tolist()
+        [[0.25, 0.25, 0.25, 0.25]]
         """
         points, _ = self._queries(xi)
         return self._matrix(*self._weights(points, slopes=False)[:3])
@@ -118,6 +125,13 @@ class NaturalNeighbor(Interpolator):
         float64 or complex128 (..., d)
             The shape of the values there, and the d derivatives. NaN outside, at sites, where the
             interpolant has none, and on the hull.
+
+        Examples
+        --------
+        >>> from dt3d.interpolate import NaturalNeighbor
+        >>> f = NaturalNeighbor([[0, 0], [2, 0], [0, 2], [2, 2]], [0, 2, 4, 6])
+        >>> f.gradient([[1, 0.5]]).round(12).tolist()
+        [[1.0, 2.0]]
         """
         points, shape = self._queries(xi)
         columns, d = self._columns(), self.tri.ndim

@@ -126,6 +126,13 @@ class Nearest(Interpolator):
         -------
         int32 (...)
             Rows of `points`; of several that are nearest, the least. -1 for points that are not finite.
+
+        Examples
+        --------
+        >>> from dt3d.interpolate import Nearest
+        >>> f = Nearest([[0, 0], [2, 0], [0, 2], [2, 2]], [0, 1, 2, 3])
+        >>> f.sites([[0.5, 0.4], [9, 9]]).tolist()
+        [0, 3]
         """
         points, shape = self._queries(xi)
         return self._nearest(points).reshape(shape)

@@ -24,6 +24,13 @@ class Mesh:
         How many simplices there are. Where they do not fit the capacity, how many are needed.
     status : int32 (...)
         Bits of `dt3d.jax.Status`; 0 if all is well. A set with a bit has rows of -1 alone.
+
+    Examples
+    --------
+    >>> import jax.numpy as jnp, dt3d.jax
+    >>> mesh = dt3d.jax.delaunay(jnp.array([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]))
+    >>> mesh.count.item(), mesh.simplices.shape, mesh.status.item()
+    (1, (6, 3), 0)
     """
 
     simplices: jax.Array

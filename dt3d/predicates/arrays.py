@@ -28,6 +28,12 @@ def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike, *, backend: str = "numba"
     ------
     ValueError
         If a coordinate is not finite, the points have another shape, or there is no such backend.
+
+    Examples
+    --------
+    >>> from dt3d.predicates import orient2d
+    >>> orient2d([0, 0], [1, 0], [[0, 1], [2, 0], [0, -1]]).tolist()
+    [1, 0, -1]
     """
     return _signs("orient2d", 2, backend, a, b, c)
 
@@ -36,6 +42,12 @@ def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike, *, backend:
     """Signs of det[b-a, c-a, d-a]: positive for the origin and the three unit vectors in order.
 
     0 exactly where the four are coplanar. Points are (..., 3); the rest is as for `orient2d`.
+
+    Examples
+    --------
+    >>> from dt3d.predicates import orient3d
+    >>> int(orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]))
+    1
     """
     return _signs("orient3d", 3, backend, a, b, c, d)
 
@@ -44,6 +56,12 @@ def in_circle(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike, *, backend
     """Signs of the in-circle determinant: for positive abc 1 where d is inside their circle, 0 where on it.
 
     Points are (..., 2); the rest is as for `orient2d`.
+
+    Examples
+    --------
+    >>> from dt3d.predicates import in_circle
+    >>> in_circle([0, 0], [1, 0], [0, 1], [[0.5, 0.5], [1, 1], [2, 2]]).tolist()
+    [1, 0, -1]
     """
     return _signs("in_circle", 2, backend, a, b, c, d)
 
@@ -60,6 +78,12 @@ def in_sphere(
     """Signs of the in-sphere determinant: for positive abcd 1 where e is inside their sphere, 0 where on it.
 
     Points are (..., 3); the rest is as for `orient2d`.
+
+    Examples
+    --------
+    >>> from dt3d.predicates import in_sphere
+    >>> int(in_sphere([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.5, 0.5, 0.5]))
+    1
     """
     return _signs("in_sphere", 3, backend, a, b, c, d, e)
 

@@ -38,6 +38,12 @@ def scaled(points: npt.ArrayLike) -> np.ndarray:
     """Return points times a power of two, so that the greatest coordinate is about 1, where that is exact.
 
     It is unless that pushes the least one below 2^-1022; then the points themselves.
+
+    Examples
+    --------
+    >>> from dt3d.predicates import scaled
+    >>> scaled([[0.0, 6.0], [8.0, 1.0]]).tolist()
+    [[0.0, 0.375], [0.5, 0.0625]]
     """
     points = np.asarray(points, np.float64)
     greatest = max(points.max(initial=0), -points.min(initial=0))

@@ -40,7 +40,7 @@ SURFACES = (".ply", ".stl", ".obj", ".off", ".vtp", ".vti", ".vts", ".vtr")
 
 @dataclass(frozen=True)
 class Mesh:
-    """Tetrahedra from a file, as `draw` and `to_pyvista` take them.
+    """Tetrahedra from a file, as `read_mesh` gives them.
 
     Attributes
     ----------
@@ -75,6 +75,17 @@ def read_mesh(path: str | Path) -> Mesh:
     ValueError
         If it holds no tetrahedra, or other cells that fill space; for tetrahedra that name points that are
         not there; for an unknown extension or a file that is damaged. One line that names the file.
+
+    Examples
+    --------
+    >>> import tempfile, dt3d
+    >>> from dt3d.files import read_mesh, write_mesh
+    >>> tri = dt3d.Delaunay([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_mesh(tri, f"{folder}/mesh.npz")
+    ...     mesh = read_mesh(f"{folder}/mesh.npz")
+    >>> mesh.simplices.shape, mesh.points.dtype
+    ((1, 4), dtype('float64'))
     """
     return read_with(path, tetrahedra_of)
 

@@ -69,6 +69,15 @@ def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.
         that names the file, whatever library found it.
     ImportError
         If the package that reads this kind of file is not installed.
+
+    Examples
+    --------
+    >>> import tempfile, numpy as np
+    >>> from dt3d.files import read_points
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     np.savetxt(f"{folder}/a.csv", [[0, 0, 1], [2, 3, 4]], delimiter=",")
+    ...     print(read_points(f"{folder}/a.csv").tolist())
+    [[0.0, 0.0, 1.0], [2.0, 3.0, 4.0]]
     """
     if dimension not in (2, 3, None):
         msg = f"dimension must be 2, 3 or None, got {dimension!r}"

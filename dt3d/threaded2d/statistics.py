@@ -52,6 +52,14 @@ class Statistics:
         ``tested`` of "circumcircle".
     inconsistencies : int
         Always 0: every decision is exact.
+
+    Examples
+    --------
+    >>> from dt3d import threaded2d
+    >>> points = [[0, 0], [1, 0], [0, 1], [1, 1]]
+    >>> stats = threaded2d.Delaunay(points, method="sequential").stats
+    >>> stats.method, stats.threads, stats.inconsistencies
+    ('sequential', 1, 0)
     """
 
     method: str

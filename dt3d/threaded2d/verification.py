@@ -33,7 +33,7 @@ def verify(
 
     True if and only if they are: each site is a vertex or equals one, the triangles cover the convex hull
     without overlap and meet edge to edge, and no site is inside a circumcircle. The sentences of the outcome
-    imply that together, not each alone; `dt3d._proof` shows why. A sentence that has no meaning while an
+    imply that together, not each alone; ``dt3d._proof`` shows why. A sentence that has no meaning while an
     earlier one is broken is reported as not checked.
 
     Parameters
@@ -58,6 +58,13 @@ def verify(
         integers, have another shape, or name what there is not.
     MemoryError
         If the system does not have the memory.
+
+    Examples
+    --------
+    >>> from dt3d.threaded2d import verify
+    >>> sites = [[0, 0], [2, 0], [0, 2], [0.5, 0.5]]
+    >>> bool(verify(sites[:3], [[0, 1, 2]])), bool(verify(sites, [[0, 1, 2]]))
+    (True, False)
     """
     return prove(
         PLANE,

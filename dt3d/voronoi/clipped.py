@@ -125,12 +125,27 @@ class Clipped(Result):
         """The volume of each site's region in the box, in the plane its area, float64 (n,); 0 for duplicates.
 
         They sum to the volume of the box, up to rounding.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.clipped([[0, 0], [2, 2]]).volumes.tolist()
+        [0.5, 0.5, 0.5, 0.5, 2.0]
         """
         return self._measured[0]
 
     @property
     def areas(self) -> np.ndarray:
-        """The area of each ridge in the box, in the plane its length, float64 (r,)."""
+        """The area of each ridge in the box, in the plane its length, float64 (r,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.clipped([[0, 0], [2, 2]]).areas.round(3).tolist()
+        [0.0, 1.414, 0.0, 1.414, 0.0, 1.414, 1.414, 0.0]
+        """
         return self._measured[1]
 
     def cell(self, site: SupportsIndex) -> Cell:
@@ -140,6 +155,14 @@ class Clipped(Result):
         ------
         IndexError
             If there is no such site.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> cell = vor.clipped().cell(4)
+        >>> sorted(cell.vertices.tolist()), sorted(cell.neighbors.tolist())
+        ([[0.0, 1.0], [1.0, 0.0], [1.0, 2.0], [2.0, 1.0]], [0, 1, 2, 3])
         """
         from .clipping import measure_cells
 

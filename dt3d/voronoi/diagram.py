@@ -114,27 +114,67 @@ class Voronoi(Result):
 
     @property
     def ndim(self) -> int:
-        """The dimension: 2 in the plane, 3 in space."""
+        """The dimension: 2 in the plane, 3 in space.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.ndim
+        2
+        """
         return self.triangulation.ndim
 
     @property
     def npoints(self) -> int:
-        """The number of sites, n."""
+        """The number of sites, n.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.npoints
+        5
+        """
         return len(self.points)
 
     @property
     def min_bound(self) -> np.ndarray:
-        """The least coordinates of the sites, float64 (d,)."""
+        """The least coordinates of the sites, float64 (d,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.min_bound.tolist(), vor.max_bound.tolist()
+        ([0.0, 0.0], [2.0, 2.0])
+        """
         return self.triangulation.min_bound
 
     @property
     def max_bound(self) -> np.ndarray:
-        """The greatest coordinates of the sites, float64 (d,)."""
+        """The greatest coordinates of the sites, float64 (d,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.max_bound.tolist()
+        [2.0, 2.0]
+        """
         return self.triangulation.max_bound
 
     @property
     def furthest_site(self) -> bool:
-        """Whether this is a diagram of furthest sites: False."""
+        """Whether this is a diagram of furthest sites: False.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.furthest_site
+        False
+        """
         return False
 
     @cached_property
@@ -148,7 +188,15 @@ class Voronoi(Result):
 
     @property
     def vertex_of_simplex(self) -> np.ndarray:
-        """The row in `vertices` of the circumcenter of each simplex of the triangulation, int32 (m,)."""
+        """The row in `vertices` of the circumcenter of each simplex of the triangulation, int32 (m,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2]])
+        >>> vor.vertex_of_simplex.tolist(), vor.vertices.tolist()
+        ([0, 0], [[1.0, 1.0]])
+        """
         return self._merged[0]
 
     @cached_property
@@ -156,6 +204,13 @@ class Voronoi(Result):
         """Voronoi vertices, float64 (k, d): circumcenters of simplices, one for all with the same sphere.
 
         Infinite where they are beyond what float64 holds.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> sorted(vor.vertices.tolist())
+        [[0.0, 1.0], [1.0, 0.0], [1.0, 2.0], [2.0, 1.0]]
         """
         first, centers = self._merged[1], self.triangulation.circumcenters
         if np.isnan(centers).any():
@@ -179,12 +234,28 @@ class Voronoi(Result):
 
     @property
     def ridge_points(self) -> np.ndarray:
-        """The two sites between which each ridge lies, int32 (r, 2)."""
+        """The two sites between which each ridge lies, int32 (r, 2).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.ridge_points.tolist()
+        [[2, 0], [2, 4], [3, 2], [4, 0], [0, 1], [3, 4], [4, 1], [1, 3]]
+        """
         return self._ridges.sites
 
     @property
     def ridge_indptr(self) -> np.ndarray:
-        """Where the vertices of each ridge begin in `ridge_indices`, and their number, int64 (r + 1,)."""
+        """Where the vertices of each ridge begin in `ridge_indices`, and their number, int64 (r + 1,).
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.ridge_indptr.tolist()
+        [0, 2, 4, 6, 8, 10, 12, 14, 16]
+        """
         return self._ridges.indptr
 
     @property
@@ -206,14 +277,31 @@ class Voronoi(Result):
 
     @cached_property
     def ridge_vertices(self) -> list[list[int]]:
-        """Rows of `vertices` for each ridge, r lists, in the order of `ridge_indices`."""
+        """Rows of `vertices` for each ridge, r lists, in the order of `ridge_indices`.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> len(vor.ridge_vertices), vor.ridge_vertices[0]
+        (8, [-1, 0])
+        """
         from .regions import as_lists
 
         return as_lists(self.ridge_indptr, self.ridge_indices)
 
     @cached_property
     def ridge_dict(self) -> dict[tuple[int, int], list[int]]:
-        """For the two sites of a ridge, as in `ridge_points`, its list of `ridge_vertices`."""
+        """For the two sites of a ridge, as in `ridge_points`, its list of `ridge_vertices`.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> a, b = vor.ridge_points[0].tolist()
+        >>> vor.ridge_dict[a, b] == vor.ridge_vertices[0]
+        True
+        """
         return dict(zip(map(tuple, self.ridge_points.tolist()), self.ridge_vertices, strict=True))
 
     @cached_property
@@ -236,12 +324,28 @@ class Voronoi(Result):
 
     @property
     def point_region(self) -> np.ndarray:
-        """The row in `regions` of each site, int64 (n,); for a duplicate that of the site that was used."""
+        """The row in `regions` of each site, int64 (n,); for a duplicate that of the site that was used.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.point_region.tolist()
+        [1, 2, 3, 4, 5]
+        """
         return self._regions[0]
 
     @property
     def region_indptr(self) -> np.ndarray:
-        """Where the vertices of each region begin in `region_indices`, and their number, int64."""
+        """Where the vertices of each region begin in `region_indices`, and their number, int64.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.region_indptr.tolist()
+        [0, 0, 3, 6, 9, 12, 16]
+        """
         return self._regions[1]
 
     @property
@@ -250,6 +354,14 @@ class Voronoi(Result):
 
         In the plane those of a region are counter-clockwise around it, in space ascending. -1 stands for
         infinity, and is the first.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> k = vor.point_region[4]
+        >>> vor.region_indices[vor.region_indptr[k]:vor.region_indptr[k + 1]].tolist() == vor.regions[k]
+        True
         """
         return self._regions[2]
 
@@ -258,6 +370,13 @@ class Voronoi(Result):
         """Rows of `vertices` for each region, lists in the order of `region_indices`.
 
         The first is empty and of no site, as in SciPy, where Qhull adds a point at infinity.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.regions
+        [[], [-1, 2, 0], [-1, 3, 2], [-1, 0, 1], [-1, 1, 3], [0, 2, 3, 1]]
         """
         from .regions import as_lists
 
@@ -284,6 +403,13 @@ class Voronoi(Result):
         Infinite if the region is unbounded; 0 for duplicates, whose region is counted with the site that was
         used. Computed from `vertices`: what is small beside the coordinates has their rounding. `clipped`
         computes beside each site.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.volumes.round(12).tolist()
+        [inf, inf, inf, inf, 2.0]
         """
         from .measures import volumes_of_cells
 
@@ -324,6 +450,14 @@ class Voronoi(Result):
         ------
         RuntimeError
             Always.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> import numpy as np
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> dt3d.Voronoi(np.concatenate([vor.points, [[0.5, 1]]]))
+        <dt3d.Voronoi: 6 sites in the plane>
         """
         msg = (
             "sites cannot be added to a finished diagram; make a new one of all sites, as of "
@@ -332,7 +466,16 @@ class Voronoi(Result):
         raise RuntimeError(msg)
 
     def close(self) -> None:
-        """As SciPy's class, where it ends an incremental diagram; nothing is open here."""
+        """As SciPy's class, where it ends an incremental diagram; nothing is open here.
+
+        Examples
+        --------
+        >>> import dt3d
+        >>> vor = dt3d.Voronoi([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]])
+        >>> vor.close()
+        >>> vor.npoints
+        5
+        """
 
     def __reduce__(self) -> tuple[Callable[..., Voronoi], tuple[object, ...], dict[str, object]]:
         """Restored from the triangulation, which is checked, and so derived again."""

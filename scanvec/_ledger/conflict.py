@@ -19,6 +19,14 @@ class Conflict:
         Which step of the ledger it was, from 0.
     accesses : int
         Elements that read or wrote the place most in demand.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> cm = sv.Simulated(processors=4, model=sv.EREW_PRAM)
+    >>> _ = sv.get(cm.vector([5, 1, 3]), cm.vector([2, 2, 0]))
+    >>> cm.ledger.conflicts[0].accesses
+    2
     """
 
     phase: str

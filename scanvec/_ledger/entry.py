@@ -37,6 +37,15 @@ class Entry:
         asks for it (``Model.exclusive``); 0 elsewhere.
     visit : int
         How often the phase had been entered by then, this time included: 3 in the third iteration of a loop.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> cm = sv.Simulated(processors=4)
+    >>> _ = sv.scan(cm.vector([5, 1, 3, 4, 3, 9, 2, 6]), sv.ADD)
+    >>> entry = cm.ledger.entries[0]
+    >>> entry.primitive, entry.elements, entry.vp_ratio, entry.messages
+    ('scan', 8, 2, 3)
     """
 
     phase: str
@@ -54,7 +63,16 @@ class Entry:
 
 @dataclass(frozen=True)
 class Row:
-    """Entries added up: one row of ``Ledger.table``."""
+    """Entries added up: one row of ``Ledger.table``.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> cm = sv.Simulated(processors=4)
+    >>> v = sv.sort(cm.vector([5, 1, 3, 4]))
+    >>> {row.operation for row in cm.ledger.table()}
+    {'sort'}
+    """
 
     phase: str
     operation: str

@@ -41,6 +41,14 @@ class Machine(abc.ABC):
     ----------
     ledger : Ledger or None
         Every step so far, on machines that keep a ledger.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> def total(machine):
+    ...     return int(sv.reduce(machine.iota(10), sv.ADD))
+    >>> total(sv.Device()), total(sv.Simulated(processors=4))
+    (45, 45)
     """
 
     ledger: Ledger | None = None

@@ -26,6 +26,13 @@ class Constant:
         of a machine; or "estimate", derived from other figures as the source says.
     source : str
         Which publication, which times, or the derivation.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> step = sv.SCAN.constants["step"]
+    >>> step.value, step.unit, step.origin
+    (1e-06, 's', 'convention')
     """
 
     value: float
@@ -49,6 +56,14 @@ class Model:
     exclusive : bool
         Concurrent reads and writes are not allowed: a machine with this model counts accesses and reports
         those that are not exclusive.
+
+    Examples
+    --------
+    >>> import scanvec as sv
+    >>> cm = sv.Simulated(processors=4, model=sv.SCAN)
+    >>> v = cm.iota(8) + 1
+    >>> cm.ledger.seconds, cm.ledger.under(sv.MESH2D).seconds >= cm.ledger.seconds
+    (4e-06, True)
     """
 
     name: str

@@ -26,7 +26,7 @@ def where(flags: Vector, v: R, w: R | Scalar) -> R: ...
 def where(flags: Vector, v: object, w: object) -> object:
     """r[i] = v[i] where flags[i], else w[i]. One step, n elements.
 
-    `p-select` of Blelloch 1990, chapter 4. Records must be of one structure and have the same dtypes. A
+    ``p-select`` of Blelloch 1990, chapter 4. Records must be of one structure and have the same dtypes. A
     scalar in place of either stands for all its elements, and takes the dtype of the other as in NumPy.
 
     Raises
