@@ -13,6 +13,7 @@ RUNS = {
     "atom_volumes.py": [(["--cells", "4", "--write", "atoms.png"], ["atoms.png"])],
     "even_triangles.py": [(["--sites", "30", "--steps", "3", "--write", "even.png"], ["even.png"])],
     "from_scipy.py": [(["300"], [])],
+    "inside_the_hull.py": [(["--size", "2", "--write", "hull.png"], ["hull.png"])],
     "lidar_tile.py": [(["--points", "2000", "--write", "tile.png"], ["tile.png"])],
     "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
     "scattered_heights.py": [(["--kept", "200", "--step", "8", "--write", "map.png"], ["map.png"])],
