@@ -15,6 +15,7 @@ RUNS = {
     "from_scipy.py": [(["300"], [])],
     "inside_the_hull.py": [(["--size", "2", "--write", "hull.png"], ["hull.png"])],
     "lidar_tile.py": [(["--points", "2000", "--write", "tile.png"], ["tile.png"])],
+    "many_small_sets.py": [(["--sets", "4", "--write", "sets.png"], ["sets.png"])],
     "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
     "scattered_heights.py": [(["--kept", "200", "--step", "8", "--write", "map.png"], ["map.png"])],
     "scan_primitives.py": [([], [])],
