@@ -14,6 +14,7 @@ RUNS = {
     "even_triangles.py": [(["--sites", "30", "--steps", "3", "--write", "even.png"], ["even.png"])],
     "from_scipy.py": [(["300"], [])],
     "inside_the_hull.py": [(["--size", "2", "--write", "hull.png"], ["hull.png"])],
+    "ledger_of_a_run.py": [(["--sites", "40", "--write", "ledger.png"], ["ledger.png"])],
     "lidar_tile.py": [(["--points", "2000", "--write", "tile.png"], ["tile.png"])],
     "many_small_sets.py": [(["--sets", "4", "--write", "sets.png"], ["sets.png"])],
     "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
