@@ -1,8 +1,8 @@
 """What a Connection Machine would have done: the ledger of one run of the method of Teng et al. 1993.
 
 Every operation on vectors leaves an entry: its phase, its primitive, elements, and messages between nodes. A
-model of the CM-5 makes seconds of them. Look at the top row: nearly all messages are questions (`get`), most of
-them for sites in cells, but most seconds go into sends to the table in which equal faces meet. And at the
+model of the CM-5 makes seconds of them. Look at the top row: nearly all messages are questions (`get`), most
+of them for sites in cells, but most seconds go into sends to the table in which equal faces meet. And at the
 bottom: the last iterations find next to nothing, and still cost their steps.
 
     python examples/ledger_of_a_run.py --sites 1000 --nodes 32 --write out/ledger_of_a_run.png

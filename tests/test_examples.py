@@ -32,6 +32,7 @@ RUNS = {
         (["300"], []),
         (["300", "--threads", "2", "--subdivision", "distance", "--write", "threads.png"], ["threads.png"]),
     ],
+    "virtual_time.py": [(["--sites", "300", "--write", "virtual.png"], ["virtual.png"])],
     "watch_it_grow.py": [
         (["--sites", "60", "--folder", "growth", "--size", "200"], ["growth/iteration_01.png"]),
         (["--sites", "60", "--folder", "growth", "--size", "200", "--cut"], ["growth/iteration_02.png"]),
