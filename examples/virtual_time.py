@@ -2,10 +2,10 @@
 
 Each processing element has a clock, and the one whose clock is least takes the next step of its thread: the
 very step that real threads take, on the very triangles. What steps cost was measured once and ships with
-dt3d, so the curves repeat. Look where each method ends: the pessimistic one at its critical section, the batch
-method at what its one inserting thread can do, the circum-circle method where threads wait for each other in
-circles; later if it tests fewer triangles, and one thread begins alone. Optimistic locks seldom meet. Caches
-and the memory's bandwidth, which real processors share, are left out.
+dt3d, so the curves repeat. Look where each method ends: the pessimistic one at its critical section, the
+batch method at what its one inserting thread can do, the circum-circle method where threads wait for each
+other in circles; later if it tests fewer triangles, and one thread begins alone. Optimistic locks seldom
+meet. Caches and the memory's bandwidth, which real processors share, are left out.
 
     python examples/virtual_time.py --sites 100000 --write out/virtual_time.png
 """

@@ -34,8 +34,8 @@ RUNS = {
     ],
     "virtual_time.py": [(["--sites", "300", "--write", "virtual.png"], ["virtual.png"])],
     "watch_it_grow.py": [
-        (["--sites", "60", "--folder", "growth", "--size", "200"], ["growth/iteration_01.png"]),
-        (["--sites", "60", "--folder", "growth", "--size", "200", "--cut"], ["growth/iteration_02.png"]),
+        (["--sites", "60", "--size", "200", "--write", "growth.png"], ["growth.png"]),
+        (["--sites", "60", "--size", "200", "--whole", "--write", "new/growth.png"], ["new/growth.png"]),
     ],
 }
 
