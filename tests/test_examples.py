@@ -19,8 +19,8 @@ RUNS = {
     "many_small_sets.py": [(["--sets", "4", "--write", "sets.png"], ["sets.png"])],
     "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
     "scattered_heights.py": [(["--kept", "200", "--step", "8", "--write", "map.png"], ["map.png"])],
-    "scan_primitives.py": [([], [])],
-    "write_your_own_algorithm.py": [([], [])],
+    "scan_primitives.py": [(["--write", "scans.png"], ["scans.png"])],
+    "write_your_own_algorithm.py": [(["--side", "12", "--write", "graph.png"], ["graph.png"])],
     "cm5_scaling.py": [(["--sites", "60", "--folder", "."], ["cm5_scaling.png"])],
     "cut_open.py": [(["--sites", "60", "--size", "200", "--write", "new/cut.png"], ["new/cut.png"])],
     "first_triangulation.py": [
@@ -50,7 +50,7 @@ def test_every_example_is_run():
 def test_example(name, words, written, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     run = runpy.run_path(str(EXAMPLES / name))["main"]
-    run(words) if words else run()
+    run(words)
     assert capsys.readouterr().out
     for file in written:
         assert (tmp_path / file).stat().st_size > 0
