@@ -12,7 +12,7 @@ RUNS = {
     "alpha_surface.py": [(["--points", "400", "--write", "surface.png"], ["surface.png"])],
     "atom_volumes.py": [(["--cells", "4", "--write", "atoms.png"], ["atoms.png"])],
     "even_triangles.py": [(["--sites", "30", "--steps", "3", "--write", "even.png"], ["even.png"])],
-    "from_scipy.py": [(["300"], [])],
+    "from_scipy.py": [(["300", "--write", "flat.png"], ["flat.png"])],
     "inside_the_hull.py": [(["--size", "2", "--write", "hull.png"], ["hull.png"])],
     "ledger_of_a_run.py": [(["--sites", "40", "--write", "ledger.png"], ["ledger.png"])],
     "lidar_tile.py": [(["--points", "2000", "--write", "tile.png"], ["tile.png"])],
