@@ -68,9 +68,10 @@ def main(argv: list[str] | None = None) -> None:
         surface = pv.PolyData.from_regular_faces(flat, triangles)
         areas = np.asarray(dj.volumes(points, mesh))[: len(triangles)]
         plotter.subplot(0, panel)
-        plotter.add_text("after" if panel else "before", color="black", font_size=14)
+        title = f"{'after' if panel else 'before'}: areas, by their mean"
+        plotter.add_text(title, color="black", font_size=14)
         bar = {
-            "title": "area, by the mean",
+            "title": "",
             "color": "black",
             "width": 0.5,
             "position_x": 0.25,
