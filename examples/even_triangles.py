@@ -68,12 +68,20 @@ def main(argv: list[str] | None = None) -> None:
         surface = pv.PolyData.from_regular_faces(flat, triangles)
         areas = np.asarray(dj.volumes(points, mesh))[: len(triangles)]
         plotter.subplot(0, panel)
-        plotter.add_text("after" if panel else "before", color="black", font_size=14)
-        bar = {"title": "area, by the mean", "color": "black"}
+        title = f"{'after' if panel else 'before'}: areas, by their mean"
+        plotter.add_text(title, color="black", font_size=14)
+        bar = {
+            "title": "",
+            "color": "black",
+            "width": 0.5,
+            "position_x": 0.25,
+            "fmt": "%.1f",
+        }
         look = {"clim": (0, 2), "cmap": "coolwarm", "show_edges": True, "lighting": False}
         plotter.add_mesh(surface, scalars=areas / areas.mean(), scalar_bar_args=bar, **look)
         plotter.view_xy()
-        plotter.camera.zoom(1.15)
+        plotter.camera.focal_point = (0.5, 0.46, 0)
+        plotter.camera.position = (0.5, 0.46, 2.3)
     options.write.parent.mkdir(parents=True, exist_ok=True)
     plotter.screenshot(options.write)
     plotter.close()

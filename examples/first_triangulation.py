@@ -14,7 +14,6 @@ import numpy as np
 
 import dt3d
 from dt3d.files import write_mesh
-from dt3d.plot import FORMATS, draw
 
 
 def main(argv: list[str] | None = None) -> None:
@@ -40,8 +39,11 @@ def main(argv: list[str] | None = None) -> None:
     print(f"{stats.inconsistencies} inconsistencies")
 
     if options.write is not None:
-        if options.write.suffix in FORMATS:
-            draw(tri, options.write)
+        if options.write.suffix in (".png", ".jpg"):
+            # long tetrahedra along the hull would hide the rest
+            plotter = tri.plot(scalars="iteration", longest=0.5, off_screen=True, window_size=(1300, 1000))
+            plotter.camera.zoom(0.9)
+            plotter.screenshot(options.write)
         else:
             write_mesh(tri, options.write)
         print(f"wrote {options.write}")

@@ -7,11 +7,18 @@ quicksort at once. The program runs on 32 simulated processors; the tables at th
 algorithm took, and how many messages crossed between processors. Put ``sv.Device()`` in place of the
 machine, and the same functions run on one device.
 
+    python examples/scan_primitives.py --write out/scan_primitives.png
+
 G. E. Blelloch, Vector Models for Data-Parallel Computing, MIT Press 1990, chapter 3.
 """
 
+import argparse
+from pathlib import Path
+
 import jax.numpy as jnp
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.figure import Figure
 
 import scanvec as sv
 
@@ -91,11 +98,44 @@ def _is_sorted(keys: sv.Vector) -> bool:
     return bool(sv.reduce(ordered, sv.AND))
 
 
-def main() -> None:
+def draw(altitude: np.ndarray, visible: np.ndarray, machine: sv.Machine, path: Path) -> None:
+    """What the observer sees, and the way of 64 keys through the splits of the radix sort."""
+    figure = Figure(figsize=(10, 4.2), layout="constrained")
+    view, sorting = figure.subplots(1, 2)
+    view.fill_between(np.arange(len(altitude)), altitude.min() - 50, altitude, color="0.8", linewidth=0)
+    for k in visible:
+        view.plot([0, k], altitude[[0, k]], color="gold", linewidth=0.3, zorder=0)
+    view.plot(visible, altitude[visible], ".", color="crimson", markersize=3, label="visible")
+    view.plot(0, altitude[0], "k^", label="observer", clip_on=False)
+    view.set(title="line of sight: a max-scan", xlabel="distance", ylabel="altitude")
+    view.margins(0)
+    view.legend(frameon=False, loc="upper left")
+
+    keys = machine.vector(np.random.default_rng(2).permutation(64))
+    places = np.array([np.argsort(split_radix_sort(keys, k).to_numpy()) for k in range(7)])
+    for key, place in enumerate(places.T):
+        sorting.plot(place, range(7), color=colormaps["viridis"](key / 63), linewidth=1.2)
+    sorting.set(
+        title="split radix sort of 64 keys: a split for each bit", xlabel="place", ylabel="bits so far"
+    )
+    sorting.invert_yaxis()
+    sorting.margins(0.01)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110)
+    print(f"\nwrote {path}")
+
+
+def main(argv: list[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description="Run three classics of the scan model.")
+    parser.add_argument("--write", type=Path, help="a picture, by its extension")
+    options = parser.parse_args(argv)
+
     cm = sv.Simulated(processors=32)
     rng = np.random.default_rng(1990)
-    altitude = cm.vector(np.arange(1000) * rng.random(1000))  # higher as it goes away from the observer
-    keys = cm.vector(rng.integers(0, 2**10, 1000))
+    hills = (
+        np.cumsum(np.convolve(rng.normal(0, 1, 1000), np.ones(25) / 5, "same")) + np.arange(1000) ** 2 / 3e3
+    )
+    altitude, keys = cm.vector(hills), cm.vector(rng.integers(0, 2**10, 1000))
 
     with cm.phase("line of sight"):
         visible = sv.pack_index(line_of_sight(altitude))
@@ -104,13 +144,15 @@ def main() -> None:
     with cm.phase("quicksort"):
         by_pivots, rounds = quicksort(keys)
 
-    print(f"line of sight: of {len(altitude)} points {visible.to_numpy().tolist()} are visible")
+    print(f"line of sight: of {len(altitude)} points {len(visible)} are visible")
     print(f"split radix sort: {by_bits.to_numpy()[:8].tolist()} ..., 10 splits")
     print(f"quicksort: {by_pivots.to_numpy()[:8].tolist()} ..., {rounds} rounds")
     print(f"\n{'on 32 processors':<16}{'steps':>8}{'VP steps':>10}{'messages':>10}")
     for row in cm.ledger.table("phase"):
         print(f"{row.phase:<16}{row.steps:>8}{row.vp_steps:>10}{row.messages:>10}")
     print(f"\n{cm.ledger}")
+    if options.write is not None:
+        draw(hills, visible.to_numpy(), cm, options.write)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """Threads that triangulate the plane together: who made which triangles, and what they had to wait for.
 
 Look at the colours: with slabs each thread works in its own, and they meet at the borders; at random all of
-them work everywhere. The triangles are the same. Then look at the counts: circum-circle tests are made for
-every change, though waits are rare, unless there are few sites for many threads.
+them work everywhere. The triangles are the same; the picture has all three ways to share sites. Then look
+at the counts: circum-circle tests are made for every change, though waits are rare, unless there are few
+sites for many threads.
 
     python examples/threads_in_the_plane.py 20000 --threads 4 --subdivision x-slabs --write threads.png
 """
@@ -11,9 +12,11 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from dt3d import threaded2d
-from dt3d.plot import save_figure
+
+SUBDIVISIONS = ("random", "x-slabs", "distance")
 
 
 def main(argv: list[str] | None = None) -> None:
@@ -22,7 +25,7 @@ def main(argv: list[str] | None = None) -> None:
     )
     parser.add_argument("sites", nargs="?", type=int, default=5000)
     parser.add_argument("--threads", type=int, default=4)
-    parser.add_argument("--subdivision", choices=["random", "x-slabs", "distance"], default="x-slabs")
+    parser.add_argument("--subdivision", choices=SUBDIVISIONS, default="x-slabs")
     parser.add_argument("--write", type=Path, help="a picture, by its extension")
     options = parser.parse_args(argv)
 
@@ -41,7 +44,19 @@ def main(argv: list[str] | None = None) -> None:
         print(f"    {s.tests_per_access:.1f} tests per change, {s.exceptions} deadlocks resolved")
 
     if options.write is not None:
-        save_figure(tri.plot().figure, options.write)
+        figure = Figure(figsize=(11, 4), layout="constrained")
+        for axes, subdivision in zip(figure.subplots(1, 3), SUBDIVISIONS, strict=True):
+            tri = threaded2d.Delaunay(
+                points,
+                method="circumcircle",
+                threads=options.threads,
+                subdivision=subdivision,
+                order="random",
+            )
+            tri.plot(axes)
+            axes.set_title(f"parts: {subdivision}")
+            axes.set_axis_off()
+        figure.savefig(options.write, dpi=100)
         print(f"wrote {options.write}")
 
 

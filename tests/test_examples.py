@@ -12,11 +12,15 @@ RUNS = {
     "alpha_surface.py": [(["--points", "400", "--write", "surface.png"], ["surface.png"])],
     "atom_volumes.py": [(["--cells", "4", "--write", "atoms.png"], ["atoms.png"])],
     "even_triangles.py": [(["--sites", "30", "--steps", "3", "--write", "even.png"], ["even.png"])],
-    "from_scipy.py": [(["300"], [])],
+    "from_scipy.py": [(["300", "--write", "flat.png"], ["flat.png"])],
+    "inside_the_hull.py": [(["--size", "2", "--write", "hull.png"], ["hull.png"])],
+    "ledger_of_a_run.py": [(["--sites", "40", "--write", "ledger.png"], ["ledger.png"])],
+    "lidar_tile.py": [(["--points", "2000", "--write", "tile.png"], ["tile.png"])],
+    "many_small_sets.py": [(["--sets", "4", "--write", "sets.png"], ["sets.png"])],
     "protein_voids.py": [(["--atoms", "2000", "--write", "voids.png"], ["voids.png"])],
     "scattered_heights.py": [(["--kept", "200", "--step", "8", "--write", "map.png"], ["map.png"])],
-    "scan_primitives.py": [([], [])],
-    "write_your_own_algorithm.py": [([], [])],
+    "scan_primitives.py": [(["--write", "scans.png"], ["scans.png"])],
+    "write_your_own_algorithm.py": [(["--side", "12", "--write", "graph.png"], ["graph.png"])],
     "cm5_scaling.py": [(["--sites", "60", "--folder", "."], ["cm5_scaling.png"])],
     "cut_open.py": [(["--sites", "60", "--size", "200", "--write", "new/cut.png"], ["new/cut.png"])],
     "first_triangulation.py": [
@@ -28,9 +32,10 @@ RUNS = {
         (["300"], []),
         (["300", "--threads", "2", "--subdivision", "distance", "--write", "threads.png"], ["threads.png"]),
     ],
+    "virtual_time.py": [(["--sites", "300", "--write", "virtual.png"], ["virtual.png"])],
     "watch_it_grow.py": [
-        (["--sites", "60", "--folder", "growth", "--size", "200"], ["growth/iteration_01.png"]),
-        (["--sites", "60", "--folder", "growth", "--size", "200", "--cut"], ["growth/iteration_02.png"]),
+        (["--sites", "60", "--size", "200", "--write", "growth.png"], ["growth.png"]),
+        (["--sites", "60", "--size", "200", "--whole", "--write", "new/growth.png"], ["new/growth.png"]),
     ],
 }
 
@@ -45,7 +50,7 @@ def test_every_example_is_run():
 def test_example(name, words, written, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     run = runpy.run_path(str(EXAMPLES / name))["main"]
-    run(words) if words else run()
+    run(words)
     assert capsys.readouterr().out
     for file in written:
         assert (tmp_path / file).stat().st_size > 0

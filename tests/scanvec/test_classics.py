@@ -55,7 +55,7 @@ def test_quicksort_of_random_keys_takes_few_rounds():
 
 
 def test_the_printed_tables(capsys):
-    classics.main()
+    classics.main([])
     out = capsys.readouterr().out
     for name in ("line of sight", "radix sort", "quicksort", "busiest"):
         assert name in out
