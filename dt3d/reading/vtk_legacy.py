@@ -159,8 +159,8 @@ def _attribute(cursor: Cursor, word: str, found: dict[str, np.ndarray], of: tupl
     elif word == "color_scalars":
         name, width = cursor.word("a name"), cursor.count("the number of values")
         # of 0 to 255 in binary, of 0 to 1 in text
-        values = _after_line(cursor, n * width, "f4" if cursor.order is None else "u1", word)
-        _enter(found, of, name, values, width)
+        kind = "f4" if cursor.order is None else "u1"
+        _enter(found, of, name, _after_line(cursor, n * width, kind, word).astype(kind), width)
     elif word == "lookup_table":
         cursor.word("a name")
         size = cursor.count("the size of a table")
