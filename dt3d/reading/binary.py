@@ -34,7 +34,7 @@ BINARY_READERS: dict[str, Callable[[Path, PointData | None], np.ndarray]] = {
     ".vtk": _points_of(read_legacy),
     **dict.fromkeys([".vtu", ".vtp", ".vti", ".vts", ".vtr", ".vtm"], _points_of(read_xml)),
     ".stl": lambda path, _: read_stl(path),
-    ".msh": lambda path, _: read_gmsh_points(path),
+    ".msh": read_gmsh_points,
     ".mesh": lambda path, _: read_medit(path)["points"],
 }
 """A reader for each extension: takes a Path, gives an array of numbers (n, k), and what it says of each point

@@ -101,11 +101,14 @@ def _points_of(path: Path, archive: zipfile.ZipFile, keep: PointData | None) -> 
     return [name], _coordinates(path, _member(path, archive, name), keep)
 
 
-def read_arrays(path: Path, wanted: Sequence[str]) -> dict[str, np.ndarray]:
-    """Those of the wanted arrays that an .npz has."""
+def read_arrays(path: Path, wanted: Sequence[str], keep: PointData | None = None) -> dict[str, np.ndarray]:
+    """Those of the wanted arrays that an .npz has; ``keep`` gets those that have as many rows as points."""
     with _archive(path) as archive:
         names = _names(archive)
-        return {name: _member(path, archive, name) for name in wanted if name in names}
+        found = {name: _member(path, archive, name) for name in wanted if name in names}
+        if keep is not None and "points" in found and found["points"].ndim:
+            _keep_others(path, archive, [*wanted], len(found["points"]), keep)
+        return found
 
 
 def _archive(path: Path) -> zipfile.ZipFile:

@@ -108,6 +108,7 @@ def read_cloud(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> Clou
     .xyz .asc .pts             the same; of extended XYZ what ``Properties`` names
     .dump .lammpstrj           the other columns
     .pcd                       the other fields
+    .msh                       data of nodes, which every node must have
     .las .laz                  all dimensions of the points: intensity, classification, GPS time ...
     ========================== =============================================================================
 
