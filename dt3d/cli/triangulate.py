@@ -66,8 +66,9 @@ def triangulate(
 ) -> None:
     """Triangulate the points of a file: in space, or in the plane where they have two coordinates.
 
-    What the file says of each point (temperatures, normals, classes ...) goes into .vtu, .vtk, .vtp, .npz and
-    .msh, in the order of the file; what the output cannot hold is named on standard error.
+    What the file says of each point (temperatures, normals, classes ...)
+    goes into .vtu .vtk .vtp .npz and .msh, in the order of the file. What
+    the output cannot hold is named on standard error.
 
     Parameters
     ----------
