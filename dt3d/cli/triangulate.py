@@ -12,7 +12,6 @@ from cyclopts import Parameter
 
 import dt3d
 
-from .._options import Method, PlaneMethod
 from .._paths import check_apart
 from .._status import NOT_DELAUNAY, Verdict, one_line
 from .choice import Choice
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
 
     import scanvec as sv
 
+    from .._options import Method, PlaneMethod  # loads NumPy, which the help does not need
     from ..files import Cloud
 
 
@@ -196,7 +196,7 @@ def triangulated(
         if not in_space:
             from .. import threaded2d
 
-            method = cast(PlaneMethod, choice.method)  # checked with the points
+            method = cast("PlaneMethod", choice.method)  # checked with the points
             return threaded2d.Delaunay(points, method=method, threads=choice.threads, seed=choice.seed)
 
         def inserted(progress: dt3d.Progress) -> None:
@@ -205,7 +205,7 @@ def triangulated(
         grows = None if speaker.how.silent else Growth(speaker.console)
         return dt3d.Delaunay(
             points,
-            method=cast(Method, choice.method),
+            method=cast("Method", choice.method),
             robustness=choice.robustness,
             machine=machine,
             threads=choice.threads,
