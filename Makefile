@@ -1,6 +1,7 @@
 # Two commands matter: `make demo` and `make test`. Each sets up what it needs in .venv, once.
 # `make docs` makes the site, docs/_build/html/index.html, without a network.
 # `make lint` is the part of `make test` that takes seconds: rules, format and types.
+# `make lowest` tests with the lowest versions that pyproject.toml allows, in a .venv-lowest; TESTS=file some of it.
 # `make fuzz TIME=3600` looks for inputs that fail, for as many seconds.
 
 # The first Python on the path that is new enough; `make PYTHON=/path/to/python test` chooses another.
@@ -15,7 +16,7 @@ READY := $(VENV)/.ready
 # Files of tests run side by side, one a core; a file stays together, so that what it compiles is compiled once.
 TOGETHER := -n auto --dist loadfile
 
-.PHONY: demo docs test test-all fuzz lint clean
+.PHONY: demo docs test test-all lowest fuzz lint clean
 
 demo: $(READY)
 	$(BIN)/dt3d demo --out out
@@ -31,6 +32,17 @@ test: lint
 test-all: lint
 	$(BIN)/python -m pytest $(TOGETHER) -m "slow or not slow"
 
+# uv chooses versions, pip has no such choice; --constraint holds them when the tools for tests are added
+LOWEST := .venv-lowest
+
+lowest: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check uv
+	$(BIN)/uv venv --quiet --clear --python $(BIN)/python $(LOWEST)
+	$(BIN)/uv pip compile --quiet --python $(LOWEST)/bin/python --resolution lowest-direct --extra view --extra formats \
+		pyproject.toml --output-file $(LOWEST)/lowest.txt
+	$(BIN)/uv pip install --quiet --python $(LOWEST)/bin/python --constraint $(LOWEST)/lowest.txt --editable ".[view,test]"
+	$(LOWEST)/bin/python -m pytest $(TOGETHER) $(TESTS)
+
 TIME ?= 60
 
 fuzz: $(READY)
@@ -42,7 +54,7 @@ lint: $(READY)
 	$(BIN)/mypy
 
 clean:
-	rm -rf $(VENV) out build dist docs/_build *.egg-info .pytest_cache .hypothesis .ruff_cache .mypy_cache
+	rm -rf $(VENV) $(LOWEST) out build dist docs/_build *.egg-info .pytest_cache .hypothesis .ruff_cache .mypy_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # Debian ships a venv module that cannot install pip; then the pip outside puts one inside.

@@ -15,7 +15,7 @@ import numpy as np
 
 from ._cell_data import cell_data, varies
 from ._mesh_data import Content, carry, check_point_data, telling_of
-from ._mesh_writing import save_arrays, save_legacy, write_ply, write_stl
+from ._mesh_writing import add_point_data, flattened, save_arrays, save_legacy, write_ply, write_stl
 from ._optional import optional
 from ._output import save_figure
 from ._paths import check_target, written_aside
@@ -119,15 +119,14 @@ def _write_vtk(content: InPlane, path: Path) -> None:
     tri = content.tri
     grid: pyvista.UnstructuredGrid = pv.UnstructuredGrid({pv.CellType.TRIANGLE: tri.triangles}, _raised(tri))
     carry(grid, cell_data(tri))
-    for name, values in content.point_data.items():
-        grid.point_data[name] = values
+    add_point_data(grid, content.point_data)
     save_legacy(grid, path)
 
 
 def _write_gmsh(content: InPlane, path: Path) -> None:
     meshio = optional("meshio")
     tri = content.tri
-    mesh = meshio.Mesh(_raised(tri), {"triangle": tri.triangles}, point_data=content.point_data)
+    mesh = meshio.Mesh(_raised(tri), {"triangle": tri.triangles}, point_data=flattened(content.point_data))
     meshio.gmsh.write(path, mesh, "4.1")
 
 

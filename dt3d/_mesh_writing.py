@@ -17,7 +17,7 @@ from ._mesh import own_points, sizes, surface, to_pyvista
 from ._mesh_data import Content, check_point_data, telling_of
 from ._optional import optional
 from ._paths import check_target, written_aside
-from ._vtk_xml import XmlMesh, write_xml
+from ._vtk_xml import XmlMesh, as_numbers, write_xml
 
 if TYPE_CHECKING:
     import pyvista
@@ -119,9 +119,15 @@ def _write_vtu(content: InSpace, path: Path) -> None:
 
 def _write_vtk(content: InSpace, path: Path) -> None:
     grid = to_pyvista(content.tri)  # says what to install where VTK is missing
-    for name, values in content.point_data.items():
-        grid.point_data[name] = values
+    add_point_data(grid, content.point_data)
     save_legacy(grid, path)
+
+
+def add_point_data(grid: pyvista.DataSet, point_data: Mapping[str, np.ndarray]) -> None:
+    """Give a dataset point data, in types that VTK has."""
+    for name, values in point_data.items():
+        numbers = as_numbers(name, values)
+        grid.point_data[name] = numbers.reshape(len(numbers), -1) if numbers.ndim > 2 else numbers
 
 
 def save_legacy(grid: pyvista.UnstructuredGrid, path: Path) -> None:
@@ -140,8 +146,17 @@ def save_legacy(grid: pyvista.UnstructuredGrid, path: Path) -> None:
 
 def _write_gmsh(content: InSpace, path: Path) -> None:
     meshio = optional("meshio")
-    mesh = meshio.Mesh(content.tri.points, {"tetra": content.tri.simplices}, point_data=content.point_data)
+    cells = {"tetra": content.tri.simplices}
+    mesh = meshio.Mesh(content.tri.points, cells, point_data=flattened(content.point_data))
     meshio.gmsh.write(path, mesh, "4.1")
+
+
+def flattened(point_data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Point data as Gmsh has them: float64 (n,) or (n, k)."""
+    return {
+        name: np.asarray(values, np.float64).reshape(len(values), -1) if values.ndim > 1 else values
+        for name, values in point_data.items()
+    }
 
 
 def _write_medit(content: InSpace, path: Path) -> None:

@@ -118,6 +118,8 @@ def _arrays(scene: Scene, rows: np.ndarray) -> dict[str, np.ndarray]:
         arrays["iteration"] = np.minimum(scene.data["iteration"][rows], 2**16 - 1).astype(np.uint16)
     for name, values in scene.data.items():
         arrays[f"of {name}"] = _levels(values)[rows]
+    for name, values in scene.point_data.items():
+        arrays[f"at {name}"] = _levels(values)[used]
     return arrays
 
 
@@ -163,7 +165,7 @@ def _about(scene: Scene, choice: Choice, count: int, left: str) -> dict[str, Any
         "colors": base64.b64encode(_colors()).decode("ascii"),
         "scalars": {
             name: {"title": title_of(name), "meaning": explained(name), "labels": _labels(values)}
-            for name, values in scene.data.items()
+            for name, values in {**scene.data, **scene.point_data}.items()
             if varies(values) or name == choice.scalars
         },
         "first": {

@@ -11,6 +11,7 @@ fill a box, 25 % for normal ones, 43 % for a protein; 72 % and more for a terrai
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -36,7 +37,7 @@ class Choice:
     Attributes
     ----------
     scalars : str, optional
-        The cell data that colours show; "depth" by default where it varies.
+        The cell data, or the point data, that colours show; "depth" by default where it varies.
     longest : float, optional
         Simplices with a longer edge are left out; `numpy.inf` leaves out none.
     cut : float, optional
@@ -80,6 +81,9 @@ class Scene:
     simplices, neighbors : int (m, d + 1)
     data : dict
         Cell data by name, as `cell_data` has them, first what colours show by default.
+    point_data : dict
+        Data of the points by name, (n,): numbers, and the lengths of vectors. A name that cell data have,
+        too, gets " of points" behind it.
     """
 
     def __init__(self, tri: Tetrahedra | Simplices) -> None:
@@ -96,11 +100,22 @@ class Scene:
             iteration = np.asarray(getattr(tri, "iteration", iteration))
         found = cell_data(_Cells(points, simplices, self.neighbors, iteration))
         self.data = {name: found[name] for name in ORDER if name in found}
+        self.point_data = _scalars(getattr(tri, "point_data", {}), len(points), self.data)
         self.points = _in_ball(
             np.column_stack([points, np.zeros(len(points))]) if self.plane else points, simplices
         )
         self.simplices = simplices
         self.middles = self.points[simplices].mean(axis=1)
+
+    @property
+    def names(self) -> list[str]:
+        """What colours can show: the data of cells and of points that vary."""
+        every = {**self.data, **self.point_data}
+        return [name for name, values in every.items() if varies(values)]
+
+    def values(self, name: str) -> np.ndarray:
+        """The data of a name, (m,) of simplices or (n,) of points."""
+        return self.data[name] if name in self.data else self.point_data[name]
 
     @property
     def last(self) -> int:
@@ -117,8 +132,9 @@ class Scene:
         """
         varied = [name for name, values in self.data.items() if varies(values)]
         scalars = choice.scalars or (varied or list(self.data))[0]
-        if scalars not in self.data:
-            msg = f"scalars must be one of {', '.join(self.data)}, got {scalars!r}"
+        if scalars not in self.data and scalars not in self.point_data:
+            known = ", ".join([*self.data, *self.point_data])
+            msg = f"scalars must be one of {known}, got {scalars!r}"
             if scalars == "iteration":
                 msg += "; by insertion there are no iterations"
             raise ValueError(msg)
@@ -174,6 +190,23 @@ class Scene:
         beside = self.neighbors[rows]
         row, k = np.nonzero((beside == OUTSIDE) | ~shown[beside])
         return self.simplices[rows[row][:, None], OUTWARD[k]], rows[row]
+
+
+def _scalars(
+    point_data: Mapping[str, np.ndarray], n: int, taken: Mapping[str, object]
+) -> dict[str, np.ndarray]:
+    """A number for each point, of those data that are numbers."""
+    found = {}
+    for name, values in point_data.items():
+        values = np.asarray(values)
+        if values.dtype.kind not in "biuf" or values.shape[:1] != (n,) or not values.size:
+            continue
+        if values.dtype.kind == "b":
+            values = values.astype(np.uint8)
+        if values.ndim > 1:
+            values = np.linalg.norm(values.reshape(n, -1).astype(np.float64), axis=1)
+        found[f"{name} of points" if name in taken else name] = values
+    return found
 
 
 def _in_ball(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
@@ -233,4 +266,4 @@ def explained(name: str) -> str:
         "volume": "volume: of each tetrahedron",
         "area": "area: of each triangle",
         "thread": "thread: which one made a triangle",
-    }.get(name, name)
+    }.get(name, f"{title_of(name)}: of each point, and along faces between")

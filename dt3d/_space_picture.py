@@ -138,7 +138,7 @@ def render(plotter: pyvista.Plotter, scene: Scene, panel: Panel) -> None:
     choice = panel.choice
     scalars = cast(str, choice.scalars)
     mesh = surface(scene, choice)
-    look = coloured(scalars, scene.data[scalars])
+    look = coloured(scalars, scene.values(scalars), of_points=scalars in scene.point_data)
     whiten(plotter)
     lay(plotter, mesh, look, edges=mesh.n_cells <= MOST_EDGES, width=2.0)  # smoothing makes it 1
     if "scalars" in look:
@@ -201,22 +201,25 @@ def add_bar(plotter: pyvista.Plotter, name: str, look: dict[str, Any], size: int
 
 
 def surface(scene: Scene, choice: Choice) -> pyvista.PolyData:
-    """The faces that a choice shows, of their own points, with the data of all cells."""
+    """The faces that a choice shows, of their own points, with the data of all cells and points."""
     pv = optional("pyvista", "a picture")
     faces, owners = scene.faces(scene.shown(choice))
     used, numbers = np.unique(faces, return_inverse=True)
     mesh: pyvista.PolyData = pv.PolyData.from_regular_faces(scene.points[used], numbers.reshape(-1, 3))
     for name, values in scene.data.items():
         mesh.cell_data[name] = values[owners]
+    for name, values in scene.point_data.items():
+        mesh.point_data[name] = values[used]
     return mesh
 
 
-def coloured(name: str, values: np.ndarray) -> dict[str, Any]:
+def coloured(name: str, values: np.ndarray, *, of_points: bool = False) -> dict[str, Any]:
     """Keywords of PyVista's `add_mesh` that colour by some data; one colour where they do not vary."""
     if not varies(values):
         return {"color": "#9ecae1"}
     low, high = color_range(values)
-    look: dict[str, Any] = {"scalars": name, "cmap": "viridis", "clim": (low, high), "preference": "cell"}
+    look: dict[str, Any] = {"scalars": name, "cmap": "viridis", "clim": (low, high)}
+    look["preference"] = "point" if of_points else "cell"
     if is_wide(values):
         look["log_scale"] = True
     elif values.dtype.kind in "iu" and high - low < 256:

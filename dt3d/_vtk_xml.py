@@ -117,7 +117,7 @@ class _Body:
 
     def add(self, parent: ET.Element, name: str, values: np.ndarray) -> None:
         """Enter an array below an element of the head, and append its bytes."""
-        values = _as_numbers(name, values)
+        values = as_numbers(name, values)
         kind = {"i": "Int", "u": "UInt", "f": "Float"}[values.dtype.kind] + str(8 * values.dtype.itemsize)
         array = ET.SubElement(parent, "DataArray", type=kind, Name=name, format="appended")
         array.set("offset", str(self.length))
@@ -129,7 +129,7 @@ class _Body:
             self.length += len(part)
 
 
-def _as_numbers(name: str, values: np.ndarray) -> np.ndarray:
+def as_numbers(name: str, values: np.ndarray) -> np.ndarray:
     """The array in a type that VTK has, in the machine's order of bytes; truth values are 0 and 1."""
     values = np.asarray(values)
     kind, size = values.dtype.kind, values.dtype.itemsize

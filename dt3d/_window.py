@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._cell_data import varies
 from ._display import check_screen
 from ._optional import optional
 from ._scene import Choice, Scene, explained, title_of
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
 PAUSE = 0.01  # seconds between looks for events
 SIZE = (1200, 900)
+KEYS = 9  # digits that colour
 SLIDER = {"style": "modern", "color": INK, "interaction_event": "always", "title_height": 0.018}
 HEAD, FOOT = 0.13, 0.13  # shares of the height for the lines above, and the sliders below
 FIRST, EACH, LONG, HIGH = 0.14, 0.25, 0.2, 0.06  # where sliders begin, side by side, and how long they are
@@ -59,7 +59,7 @@ class Window:
         self.open = True
         self.edges = True
         self.sliders: dict[str, Any] = {}  # VTK's, by their titles
-        self.names = [name for name, values in scene.data.items() if varies(values)]
+        self.names = scene.names
         with quiet(pv):
             self.plotter: pyvista.Plotter = pv.Plotter(title=title, window_size=SIZE, off_screen=off_screen)
         whiten(self.plotter)
@@ -123,7 +123,7 @@ class Window:
 
     def _colour(self) -> None:
         name = cast(str, self.choice.scalars)
-        look = coloured(name, self.scene.data[name])
+        look = coloured(name, self.scene.values(name), of_points=name in self.scene.point_data)
         for title in list(self.plotter.scalar_bars.keys()):
             self.plotter.remove_scalar_bar(title, render=False)
         lay(self.plotter, self.mesh, look, edges=self.edges)
@@ -136,7 +136,7 @@ class Window:
         kind = "triangles" if self.scene.plane else "tetrahedra"
         shown = int(self.scene.shown(self.choice).sum())
         count = f"{shown:,} of {len(self.scene.simplices):,} {kind}; {explained(str(self.choice.scalars))}"
-        keys = ", ".join(f"{k} {title_of(name)}" for k, name in enumerate(self.names, 1))
+        keys = ", ".join(f"{k} {title_of(name)}" for k, name in enumerate(self.names[:KEYS], 1))
         how = "drag the mesh to turn it, the sliders to cut and peel it; wheel: zoom; shift and drag: move\n"
         how += f"keys: {keys}, c cut towards the eye, e edges, r back, q end"
         for name, text, height, size in (("count", count, 0.945, 12), ("how", how, 0.885, 9)):

@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-import secrets
 import shutil
 import signal
 import stat
@@ -53,7 +52,7 @@ def written_aside(path: str | Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def _aside(target: Path, old: os.stat_result | None) -> Iterator[Path]:
-    aside = target.with_name(f".{target.stem[:40]}.dt3d-{os.getpid()}-{secrets.token_hex(4)}{target.suffix}")
+    aside = target.with_name(f".{target.stem[:40]}.dt3d-{os.getpid()}-{os.urandom(4).hex()}{target.suffix}")
     with _removed_first(aside):
         try:
             # of a file that only some may read no copy lies about that all may read

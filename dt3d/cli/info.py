@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import os
-import platform
 import sys
 from pathlib import Path
 
@@ -35,6 +33,8 @@ def info(*, reporting: Reporting = Reporting()) -> None:  # noqa: B008  frozen
     reporting
         What is said of it.
     """
+    import platform
+
     speaker = Speaker(reporting)
     packages = {name: _version(name) for name in (*NEEDED, *OPTIONAL)}
     folder, compiled = _compiled()
@@ -71,7 +71,9 @@ def info(*, reporting: Reporting = Reporting()) -> None:  # noqa: B008  frozen
 
 
 def _version(package: str) -> str | None:
-    """The version that is installed; nothing is loaded."""
+    """The version that is installed; nothing of it is loaded."""
+    import importlib.metadata  # loads much, and each command would wait for it
+
     try:
         return importlib.metadata.version(package)
     except importlib.metadata.PackageNotFoundError:

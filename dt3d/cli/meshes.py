@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -94,7 +95,8 @@ def view(
     html
         Write one page for browsers that has all it needs, with the controls of the window, and open none.
     scalar
-        What colours show: depth, longest_edge, volume (in the plane area), circumradius, iteration.
+        What colours show: depth, longest_edge, volume (in the plane area), circumradius, iteration; or data
+        of the points by their name, of which vectors show as their length.
     longest
         Leave out what has a longer edge; inf leaves out nothing. By default nothing is, but where most of the
         hull is empty, as for points on surfaces, what is longer than five times the median.
@@ -144,7 +146,7 @@ def _shown(file: Path) -> Simplices:
     from .._mesh_input import check_simplices
     from ..reading.plane import PlaneMesh, read_either
 
-    mesh = read_either(file)
+    mesh = read_either(file, point_data=True)
     if not isinstance(mesh, PlaneMesh):
         return mesh
     try:
@@ -152,7 +154,7 @@ def _shown(file: Path) -> Simplices:
     except ValueError as error:
         msg = f"{file} is damaged: {error}"
         raise ValueError(msg) from None
-    return Triangles(mesh.points, triangles)
+    return Triangles(mesh.points, triangles, mesh.point_data)
 
 
 @dataclass(frozen=True)
@@ -161,3 +163,4 @@ class Triangles:
 
     points: np.ndarray
     simplices: np.ndarray
+    point_data: Mapping[str, np.ndarray]

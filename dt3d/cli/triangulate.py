@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +12,6 @@ from cyclopts import Parameter
 
 import dt3d
 
-from .._options import Method, PlaneMethod
 from .._paths import check_apart
 from .._status import NOT_DELAUNAY, Verdict, one_line
 from .choice import Choice
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     import numpy as np
 
     import scanvec as sv
+
+    from .._options import Method, PlaneMethod  # loads NumPy, which the help does not need
+    from ..files import Cloud
 
 
 @Parameter(name="*", group="Delivery", negative=())
@@ -62,6 +65,10 @@ def triangulate(
     reporting: Reporting = Reporting(),  # noqa: B008
 ) -> None:
     """Triangulate the points of a file: in space, or in the plane where they have two coordinates.
+
+    What the file says of each point (temperatures, normals, classes ...)
+    goes into .vtu .vtk .vtp .npz and .msh, in the order of the file. What
+    the output cannot hold is named on standard error.
 
     Parameters
     ----------
@@ -122,23 +129,29 @@ class _Job:
 
     def run(self, steps: Steps, formats: Formats, output: Path) -> Mapping[str, object]:
         """Read, triangulate, verify, write and draw; what is reported to programs."""
+        from .._carried import carried, said
         from .._mesh_plane import check_plane_path, draw_plane, write_plane_mesh
         from .._space_picture import draw_picture
         from ..files import check_mesh_path, write_mesh
 
         machine = self.choice.make_machine()
         with steps.step("reading"):
-            points, called = self.read(formats.source)
+            cloud, called = self.read(formats.source)
+        points = cloud.points
         self.speaker.say(f"{len(points):,} points from {called}")
         in_plane = points.shape[1] == 2
         check, write = (check_plane_path, write_plane_mesh) if in_plane else (check_mesh_path, write_mesh)
         check(output)
+        data, left_out = carried(cloud.point_data, output.suffix)
+        left_out = {**cloud.left_out, **left_out}
+        if left_out:
+            logging.getLogger("dt3d").warning(said(left_out))
         tri = triangulated(self.speaker, steps, points, self.choice, machine)
         if self.delivery.verify:
             with steps.step("verifying"):
                 self.check(tri)
         with steps.step("writing"):
-            write(tri, output, compress=self.delivery.compress)
+            write(tri, output, point_data=data, compress=self.delivery.compress)
         if self.picture is not None:
             with steps.step("drawing"):
                 draw_plane(tri, self.picture) if in_plane else draw_picture(tri, self.picture)
@@ -146,17 +159,23 @@ class _Job:
         self.speaker.show(table_of(tri, one_line(called), details=self.delivery.details, files=seconds))
         if machine is not None and machine.ledger is not None:
             self.speaker.show(ledger_table(machine.ledger))
-        return {"source": str(called), **result_of(tri, seconds), "verified": self.delivery.verify}
+        return {
+            "source": str(called),
+            **result_of(tri, seconds),
+            "point_data": list(data),
+            "left_out": left_out,
+            "verified": self.delivery.verify,
+        }
 
-    def read(self, extension: str) -> tuple[np.ndarray, Path]:
-        """The points, and what their file is called."""
-        from ..files import read_points
+    def read(self, extension: str) -> tuple[Cloud, Path]:
+        """The points with their data, and what their file is called."""
+        from ..files import read_cloud
         from ..reading.guarded import guarded
 
         with incoming(self.source, extension) as (path, called):
-            points = guarded(lambda path: read_points(path, dimension=self.choice.dimension), path, called)
-        self.choice.check_points(points, called)
-        return points, called
+            cloud = guarded(lambda path: read_cloud(path, dimension=self.choice.dimension), path, called)
+        self.choice.check_points(cloud.points, called)
+        return cloud, called
 
     def check(self, tri: dt3d.Delaunay) -> None:
         """Say what is wrong, and end with the status of `dt3d verify`, if the result is not proved."""
@@ -177,7 +196,7 @@ def triangulated(
         if not in_space:
             from .. import threaded2d
 
-            method = cast(PlaneMethod, choice.method)  # checked with the points
+            method = cast("PlaneMethod", choice.method)  # checked with the points
             return threaded2d.Delaunay(points, method=method, threads=choice.threads, seed=choice.seed)
 
         def inserted(progress: dt3d.Progress) -> None:
@@ -186,7 +205,7 @@ def triangulated(
         grows = None if speaker.how.silent else Growth(speaker.console)
         return dt3d.Delaunay(
             points,
-            method=cast(Method, choice.method),
+            method=cast("Method", choice.method),
             robustness=choice.robustness,
             machine=machine,
             threads=choice.threads,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -15,6 +14,7 @@ from .reporting import Reporting, Speaker
 from .steps import Steps
 
 if TYPE_CHECKING:
+    import subprocess
     from typing import TypeAlias
 
     Task: TypeAlias = Callable[[], None]
@@ -86,6 +86,8 @@ def _run(tasks: Sequence[Task], processes: int, steps: Steps) -> None:
 
 
 def _started(task: Task, steps: Steps) -> _Running:
+    import subprocess  # loads much, and each command would wait for it
+
     program = PROGRAM.format(path=sys.path, function=task.__name__)
     stack = contextlib.ExitStack()
     stack.enter_context(steps.step(_name(task)))

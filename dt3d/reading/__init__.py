@@ -5,6 +5,6 @@ end the process, or go on for ever.
 """
 
 from .meshes import Mesh, read_mesh
-from .points import read_points
+from .points import Cloud, read_cloud, read_points
 
-__all__ = ["Mesh", "read_mesh", "read_points"]
+__all__ = ["Cloud", "Mesh", "read_cloud", "read_mesh", "read_points"]

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from .._memory import available_memory, gigabytes
+from .point_data import PointData
 
 SECONDS, BYTES_PER_SECOND = 60, 1e6
 """Of processor time for a file of any size, and one second more for each so many bytes."""
@@ -28,16 +29,19 @@ OUT_OF_TIME = -getattr(signal, "SIGXCPU", 24)
 """The status of a child that the system has ended because its seconds were over."""
 
 
-def read_in_child(script: str, path: Path) -> np.ndarray:
+def read_in_child(script: str, path: Path, keep: PointData | None = None) -> np.ndarray:
     """The array that a script of this package reads from the file.
 
     Parameters
     ----------
     script : str
-        Its name. It is called with the path, a folder, `sys.path` as JSON, bytes and seconds. It leaves
-        array.npy in the folder, or report.json, which is what is wrong with the file.
+        Its name. It is called with the path, a folder, `sys.path` as JSON, bytes and seconds, and "data" or
+        "none". It leaves array.npy in the folder, or report.json, which is what is wrong with the file; and
+        with "data" data.npz: "names", and their arrays as "0", "1" ...
     path : Path
         The file.
+    keep : PointData, optional
+        Gets the arrays of data.npz.
 
     Raises
     ------
@@ -54,6 +58,7 @@ def read_in_child(script: str, path: Path) -> np.ndarray:
         raise OSError(msg)
     with tempfile.TemporaryDirectory(prefix="dt3d-") as folder:
         limits = [json.dumps(sys.path), str(room + ADDRESSES), str(seconds)]
+        limits.append("none" if keep is None else "data")
         command = [sys.executable, "-P", "-W", "ignore", "-c", source, str(path.absolute()), folder, *limits]
         none = subprocess.DEVNULL
         try:
@@ -74,4 +79,8 @@ def read_in_child(script: str, path: Path) -> np.ndarray:
             need = f"more memory than the {gigabytes(room)} that are available"
             msg = f"{path} is damaged, or needs {need}: what reads it ended with status {status}"
             raise ValueError(msg)
+        if keep is not None:
+            with np.load(Path(folder) / "data.npz") as data:
+                for k, name in enumerate(data["names"].tolist()):
+                    keep.add(name, data[str(k)])
         return np.asarray(np.load(array))

@@ -12,6 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from .cursor import Cursor
+from .gmsh_data import node_data
+from .point_data import PointData
 
 NODES = {
     1: 2, 2: 3, 3: 4, 4: 4, 5: 8, 6: 6, 7: 5, 8: 3, 9: 6, 10: 9, 11: 10, 12: 27, 13: 18, 14: 14, 15: 1,
@@ -27,13 +29,16 @@ VTK_TYPES = {
 """VTK's type of triangles and of elements that fill space, by Gmsh's."""
 
 
-def read_gmsh_points(path: Path) -> np.ndarray:
-    """All nodes, float64 (n, 3), in the order of the file."""
-    return _open(path)[1]
+def read_gmsh_points(path: Path, keep: PointData | None = None) -> np.ndarray:
+    """All nodes, float64 (n, 3), in the order of the file; ``keep`` gets their data."""
+    cursor, points, tags, _ = _open(path)
+    if keep is not None:
+        node_data(cursor, tags, keep)
+    return points
 
 
-def read_gmsh(path: Path) -> dict[str, np.ndarray]:
-    """Nodes and elements.
+def read_gmsh(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray]:
+    """Nodes and elements; ``keep`` gets the data of the nodes.
 
     Returns
     -------
@@ -51,6 +56,8 @@ def read_gmsh(path: Path) -> dict[str, np.ndarray]:
     _section(cursor, "Elements")
     kinds, sizes, named = (_elements_4 if version == "4.1" else _elements_2)(cursor)
     _end(cursor, "Elements")
+    if keep is not None:
+        node_data(cursor, tags, keep)
     order = np.argsort(tags, kind="stable")
     found = np.searchsorted(tags[order], named)
     known = found < len(tags)

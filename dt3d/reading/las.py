@@ -12,15 +12,19 @@ import numpy as np
 
 from .._optional import optional
 from .child import read_in_child
+from .point_data import PointData
+
+PLACES = ("X", "Y", "Z")
+"""The dimensions that are the points themselves, as integers."""
 
 WITH_WAVES = (4, 5, 9, 10)
 """Point formats after which a file may have wave packets."""
 
 
-def read_las(path: Path) -> np.ndarray:
+def read_las(path: Path, keep: PointData | None = None) -> np.ndarray:
     """All points in the coordinates of the file's reference system, float64 (n, 3).
 
-    Each is an integer times a scale plus an offset, which the header has.
+    Each is an integer times a scale plus an offset, which the header has. ``keep`` gets the other dimensions.
 
     Raises
     ------
@@ -43,11 +47,17 @@ def read_las(path: Path) -> np.ndarray:
             if left >= header.point_format.size:
                 msg = f"{path} is damaged: {left} bytes follow the {promised} points that are promised"
                 raise ValueError(msg)
-        points = np.empty((0, 3)) if packed else np.array(file.read().xyz, np.float64)
+        points = np.empty((0, 3))
+        if not packed:
+            scan = file.read()
+            points = np.array(scan.xyz, np.float64)
+            for name in header.point_format.dimension_names if keep is not None else ():
+                if name not in PLACES and keep is not None:
+                    keep.add(name, np.asarray(scan[name]))
     if packed:
         optional("lazrs", "this file")
         # lazrs panics, which prints and can end the process, where packed points are damaged
-        return read_in_child("laz_child.py", path)
+        return read_in_child("laz_child.py", path, keep)
     if len(points) != promised or not promised:
         msg = f"{path} holds {len(points)} points; its header promises {promised}"
         raise ValueError(msg)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -16,6 +16,7 @@ from .gmsh import read_gmsh
 from .guarded import guarded
 from .medit import read_medit
 from .npy import read_arrays
+from .point_data import PointData
 from .vtk_legacy import CELL_DATA, read_legacy
 from .vtk_xml import read_xml
 
@@ -49,11 +50,14 @@ class Mesh:
         Numbers of points, all of them from 0 to n - 1.
     iteration : int32 (m,)
         The iteration that found each tetrahedron; 1 where the file does not say.
+    point_data : mapping of str to arrays (n,) or (n, ...)
+        What the file says of each point, in its types; of .vtu, .vtk, .npz and .msh.
     """
 
     points: np.ndarray
     simplices: np.ndarray
     iteration: np.ndarray
+    point_data: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
 def read_mesh(path: str | Path) -> Mesh:
@@ -87,11 +91,17 @@ def read_mesh(path: str | Path) -> Mesh:
     >>> mesh.simplices.shape, mesh.points.dtype
     ((1, 4), dtype('float64'))
     """
-    return read_with(path, tetrahedra_of)
+    keep = PointData()
+    return replace(read_with(path, tetrahedra_of, keep), point_data=keep.arrays)
 
 
-def read_with(path: str | Path, make: Callable[[Path, dict[str, np.ndarray]], T]) -> T:
-    """What ``make(path, arrays)`` makes of the arrays of a file, by name, as its format has them."""
+def read_with(
+    path: str | Path, make: Callable[[Path, dict[str, np.ndarray]], T], keep: PointData | None = None
+) -> T:
+    """What ``make(path, arrays)`` makes of the arrays of a file, by name, as its format has them.
+
+    ``keep`` gets the data of the points.
+    """
     path = Path(path)
     if inner(path).suffix.lower() in SURFACES:
         msg = f"{check_file(path)} holds no tetrahedra: files of this kind have points or surfaces only"
@@ -101,7 +111,14 @@ def read_with(path: str | Path, make: Callable[[Path, dict[str, np.ndarray]], T]
 
     def mesh_of(path: Path) -> T:
         with unpacked(path) as plain:
-            return guarded(lambda plain: make(plain, reader(plain)), plain, path)
+            return guarded(made, plain, path)
+
+    def made(plain: Path) -> T:
+        found = reader(plain, keep)
+        mesh = make(plain, found)
+        if keep is not None:
+            keep.check(str(plain), len(found["points"]))
+        return mesh
 
     return guarded(mesh_of, path)
 
@@ -213,11 +230,12 @@ def tetrahedra(path: Path, found: dict[str, np.ndarray]) -> dict[str, np.ndarray
     return mesh
 
 
-CELLS: dict[str, Callable[[Path], dict[str, np.ndarray]]] = {
-    ".npz": lambda path: read_arrays(path, ["points", "simplices", "iteration", "triangles"]),
+CELLS: dict[str, Callable[[Path, PointData | None], dict[str, np.ndarray]]] = {
+    ".npz": lambda path, keep: read_arrays(path, ["points", "simplices", "iteration", "triangles"], keep),
     ".vtu": read_xml,
     ".vtk": read_legacy,
     ".msh": read_gmsh,
-    ".mesh": read_medit,
+    ".mesh": lambda path, _: read_medit(path),
 }
-"""The readers of meshes by extension: each gives the arrays of a file by name."""
+"""The readers of meshes by extension: each gives the arrays of a file by name, and what it says of each point
+to a `PointData`, if there is one."""

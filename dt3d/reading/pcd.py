@@ -11,6 +11,7 @@ import numpy as np
 
 from .columns import stack_columns
 from .cursor import Cursor
+from .point_data import PointData
 
 TYPES = {"F": "f", "I": "i", "U": "u"}
 
@@ -20,8 +21,10 @@ MOST_LZF = 264
 """A compressed run of three bytes stands for at most so many."""
 
 
-def read_pcd(path: Path) -> np.ndarray:
+def read_pcd(path: Path, keep: PointData | None = None) -> np.ndarray:
     """x, y and z of all points, float64 (n, 3); points that a sensor missed are NaN, as in the file.
+
+    ``keep`` gets the other fields; PCL's packed colours ``rgb`` stay the one number that they are.
 
     Raises
     ------
@@ -43,24 +46,31 @@ def read_pcd(path: Path) -> np.ndarray:
     if len(axes) < 2 or names[axes[1]].lower() != "y" or any(counts[k] != 1 for k in axes):
         msg = f"{path}: expected fields x, y and z, found {', '.join(names)[:80]}"
         raise ValueError(msg)
+    others = [k for k in range(len(names)) if k not in axes and names[k] != "_"]  # which fills a gap
+    if keep is None:
+        others, keep = [], PointData()
     if form == "ascii":
         starts = np.cumsum([0, *counts])
         rows = cursor.text(n * int(starts[-1]), False, "points").reshape(n, -1)
         _check_end(cursor)
+        for k in others:
+            keep.add(names[k], rows[:, starts[k] : starts[k + 1]], f"{TYPES[types[k]]}{sizes[k]}")
         return rows[:, starts[axes]]
     kinds = [np.dtype(f"<{TYPES[kind]}{size}") for kind, size in zip(types, sizes, strict=True)]
     if form == "binary":
         fields = [(str(k), kind, (count,)) for k, (kind, count) in enumerate(zip(kinds, counts, strict=True))]
         table = cursor.binary(n, np.dtype(fields), "points")
-        columns = [table[str(k)][:, 0] for k in axes]
+        every = [table[str(k)] for k in range(len(names))]
     else:
         width = sum(kind.itemsize * count for kind, count in zip(kinds, counts, strict=True))
         plain = Cursor(path, _unpacked(path, cursor, n * width), "<")
         # compressed files have all x first, then all y, and so on
         every = [plain.binary(n * count, kind, "points") for kind, count in zip(kinds, counts, strict=True)]
-        columns = [every[k] for k in axes]
+        every = [values.reshape(n, -1) for values in every]
     _check_end(cursor)
-    return stack_columns(path, [(names[k], column) for k, column in zip(axes, columns, strict=True)])
+    for k in others:
+        keep.add(names[k], every[k])
+    return stack_columns(path, [(names[k], every[k][:, 0]) for k in axes])
 
 
 def _layout(

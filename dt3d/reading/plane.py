@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from .columns import as_float64
 from .compressed import inner
 from .meshes import CELLS, TETRAHEDRON, VOLUMES, Mesh, read_with, tetrahedra_of
+from .point_data import PointData
 
 TRIANGLE = 5
 """VTK's number for this kind of cell; the readers of other formats use VTK's numbers."""
@@ -26,21 +28,33 @@ class PlaneMesh:
     points : float64 (n, 2)
     triangles : int (m, 3)
         As the file has them: `dt3d.threaded2d.verify` checks them before it uses them.
+    point_data : mapping of str to arrays (n,) or (n, ...)
+        What the file says of each point, where it was asked for.
     """
 
     points: np.ndarray
     triangles: np.ndarray
+    point_data: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
-def read_either(path: str | Path) -> PlaneMesh | Mesh:
+def read_either(path: str | Path, *, point_data: bool = False) -> PlaneMesh | Mesh:
     """The triangles of a file where it holds triangles in the plane z = 0, else its tetrahedra.
+
+    With what it says of its points, where ``point_data`` asks for that.
 
     Raises
     ------
     OSError, ValueError
         As `read_mesh` does, where it holds neither.
     """
-    return read_with(path, lambda path, found: triangles_of(path, found) or tetrahedra_of(path, found))
+
+    def make(path: Path, found: dict[str, np.ndarray]) -> PlaneMesh | Mesh:
+        return triangles_of(path, found) or tetrahedra_of(path, found)
+
+    if not point_data:
+        return read_with(path, make)
+    keep = PointData()
+    return replace(read_with(path, make, keep), point_data=keep.arrays)
 
 
 def read_plane_mesh(path: str | Path) -> PlaneMesh | None:

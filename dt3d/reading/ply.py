@@ -16,6 +16,7 @@ import numpy as np
 
 from .columns import stack_columns
 from .cursor import numbers
+from .point_data import PointData
 
 SCALARS = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
@@ -39,10 +40,10 @@ class Element:
     properties: list[tuple[str, str, str]] = field(default_factory=list)
 
 
-def read_ply(path: Path) -> np.ndarray:
+def read_ply(path: Path, keep: PointData | None = None) -> np.ndarray:
     """The x, y and z of all vertices, float64 (n, 3), or (n, 2) where there is no z.
 
-    Text is read in double precision whatever the header says.
+    Text is read in double precision whatever the header says. ``keep`` gets the other scalars of vertices.
 
     Raises
     ------
@@ -57,7 +58,7 @@ def read_ply(path: Path) -> np.ndarray:
     for element in elements:
         columns = _read(body, element)
         if element.name == "vertex":
-            found = columns
+            found, vertex = columns, element
     body.check_end()
     if found is None:
         msg = f"{path} has no element 'vertex', but {', '.join(e.name for e in elements)[:80] or 'none'}"
@@ -70,6 +71,12 @@ def read_ply(path: Path) -> np.ndarray:
     if not len(points):
         msg = f"{path} has no vertices"
         raise ValueError(msg)
+    if keep is not None:
+        for name, kind, is_list in vertex.properties:
+            if is_list:
+                keep.leave_out(name, "it is a list")
+            elif name not in axes:
+                keep.add(name, found[name], None if order else kind)
     return points
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -12,9 +14,29 @@ from .binary import BINARY_READERS
 from .columns import as_float64
 from .compressed import inner, unpacked
 from .guarded import guarded
+from .point_data import PointData
 from .text import TEXT_READERS
 
 READERS = {**TEXT_READERS, **BINARY_READERS}
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points from a file, with what the file says of each.
+
+    Attributes
+    ----------
+    points : float64 (n, 3) or (n, 2)
+        As `read_points` gives them.
+    point_data : mapping of str to arrays (n,) or (n, ...)
+        By the file's names and in its types: row k is of point k. `write_mesh` takes them.
+    left_out : mapping of str to str
+        What the file has beside, by name, and why it is not among the point data.
+    """
+
+    points: np.ndarray
+    point_data: Mapping[str, np.ndarray] = field(default_factory=dict)
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.ndarray:
@@ -79,6 +101,62 @@ def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.
     ...     print(read_points(f"{folder}/a.csv").tolist())
     [[0.0, 0.0, 1.0], [2.0, 3.0, 4.0]]
     """
+    return _read(path, dimension, None)
+
+
+def read_cloud(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> Cloud:
+    """The points of a file, and what the file says of each: temperatures, normals, colours, classes.
+
+    ========================== =============================================================================
+    .vtu .vtp .vti .vts .vtr   the point data; of pieces, and of the files of a .vtm, those that all have
+    .vtk                       scalars, vectors, normals, tensors, colours and fields of the points
+    .ply                       the other scalars of vertices
+    .npz .npy                  arrays of as many rows as there are points; fields of a structured array
+    .csv .tsv .txt .dat        the other columns that a header names: int64 where all cells are whole numbers,
+                               float64 where all are numbers or missing (NaN), else text
+    .xyz .asc .pts             the same; of extended XYZ what ``Properties`` names
+    .dump .lammpstrj           the other columns
+    .pcd                       the other fields
+    .msh                       data of nodes, which every node must have
+    .las .laz                  all dimensions of the points: intensity, classification, GPS time ...
+    ========================== =============================================================================
+
+    Each of them with .gz, too. Of the other formats that `read_points` reads, the points only. Arrays keep
+    their names and types, and their rows are those of the points: nothing is dropped or put in another order.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file, whose extension says what it is.
+    dimension : 2, 3 or None
+        As `read_points` has it. With 2, the heights of a file that has three coordinates become the point
+        data ``z``, unless all are equal.
+
+    Returns
+    -------
+    Cloud
+
+    Raises
+    ------
+    OSError, ValueError, ImportError
+        As `read_points` says; also for an array that is damaged, or has not an entry for each point.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib, dt3d.files
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "cloud.csv")
+    >>> _ = path.write_text("x,y,z,t\\n0,0,0,20\\n1,0,0,21\\n0,1,0,22\\n")
+    >>> cloud = dt3d.files.read_cloud(path)
+    >>> cloud.points.shape, cloud.point_data["t"].tolist()
+    ((3, 3), [20, 21, 22])
+    """
+    keep = PointData()
+    points = _read(path, dimension, keep)
+    return Cloud(points, keep.arrays, keep.left_out)
+
+
+def _read(path: str | Path, dimension: int | None, keep: PointData | None) -> np.ndarray:
+    """The points of a file; what it says of them goes to ``keep``, if there is one."""
     if dimension not in (2, 3, None):
         msg = f"dimension must be 2, 3 or None, got {dimension!r}"
         raise ValueError(msg)
@@ -88,8 +166,13 @@ def read_points(path: str | Path, *, dimension: Literal[2, 3] | None = 3) -> np.
 
     def points_of(path: Path) -> np.ndarray:
         with unpacked(path) as plain:
-            found = guarded(reader, plain, path)
-        return _points(path, found, dimension)
+            found = guarded(lambda plain: reader(plain, keep), plain, path)
+        points = _points(path, found, dimension)
+        if keep is not None:
+            if found.shape[1] > points.shape[1] and (found[:, 2] != found[0, 2]).any():
+                keep.add("z", found[:, 2])
+            keep.check(str(path), len(points))
+        return points
 
     return guarded(points_of, path)
 

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from .point_data import PointData
 from .text_cells import is_integer, is_missing, is_number, split
 from .text_header import coordinate_columns, is_header, plain_name
 from .text_lines import COMMENT_MARKS, Lines, content, read_lines, shown, shown_names
 from .text_numbers import decimal_mark, numbers
+from .text_values import keep_columns
 
 _QUOTED = re.compile(r'"[^"]*"')
 _COMMAS_WITHIN = re.compile(r"[-+]?[0-9]+(,[0-9]+)*(\.[0-9]*)?([eEdD][-+]?[0-9]+)?")
@@ -18,14 +20,14 @@ _COMMAS_WITHIN = re.compile(r"[-+]?[0-9]+(,[0-9]+)*(\.[0-9]*)?([eEdD][-+]?[0-9]+
 _WANTED = "expected three, or a header that names x, y and z"
 
 
-def read_columns(path: Path) -> np.ndarray:
+def read_columns(path: Path, keep: PointData | None = None) -> np.ndarray:
     """Two or three columns of numbers, or those that a header calls x, y and z.
 
     The delimiter is a semicolon, a tab, a comma or white space. Decimal commas are understood where they can
     be nothing else. Lines that start with ``#``, ``//``, ``%`` or ``!`` are comments; one before the first
     row that names x, y and z is a header, as is a first line in which no cell is a number (see
     `text_header.is_header`). A header of two or three columns that names no axes leaves them in order.
-    Before the rows, there may be their number, or what Qhull's rbox writes.
+    Before the rows, there may be their number, or what Qhull's rbox writes. ``keep`` gets the other columns.
 
     Returns
     -------
@@ -38,10 +40,10 @@ def read_columns(path: Path) -> np.ndarray:
         more than three and not named. The first three of more columns are not taken: the first may well be an
         index or a time.
     """
-    return columns_of(read_lines(path))
+    return columns_of(read_lines(path), keep=keep)
 
 
-def read_leading_columns(path: Path) -> np.ndarray:
+def read_leading_columns(path: Path, keep: PointData | None = None) -> np.ndarray:
     """As `read_columns`, but of more than three columns without names the first three: .asc.
 
     Raises
@@ -49,11 +51,14 @@ def read_leading_columns(path: Path) -> np.ndarray:
     ValueError
         As `read_columns`, and if the first column of more than three counts the rows.
     """
-    return columns_of(read_lines(path), leading=True)
+    return columns_of(read_lines(path), leading=True, keep=keep)
 
 
-def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
-    """The points in the lines of a table; with ``leading``, the first three columns where none are named."""
+def columns_of(lines: Lines, *, leading: bool = False, keep: PointData | None = None) -> np.ndarray:
+    """The points in the lines of a table; with ``leading``, the first three columns where none are named.
+
+    ``keep`` gets the other columns.
+    """
     path, rows = lines.path, content(lines)
     if not len(rows):
         what = "holds only comments" if any(map(str.strip, lines.text)) else "is empty"
@@ -85,7 +90,13 @@ def columns_of(lines: Lines, *, leading: bool = False) -> np.ndarray:
     else:
         _check_numbered_header(rows, first, delimiter)
     columns = _chosen_columns(rows, names, first[:used], delimiter, leading)
-    return numbers(rows, delimiter, columns, width, decimal_mark(rows, delimiter, columns))
+    decimal = decimal_mark(rows, delimiter, columns)
+    found = numbers(rows, delimiter, columns, width, decimal)
+    if keep is not None and names:
+        keep_columns(rows, delimiter, names, columns, decimal, keep)
+    elif keep is not None and used > len(columns):
+        keep.leave_out(f"columns {len(columns) + 1} to {used}", f"they have no names, as by {_example(used)}")
+    return found
 
 
 def delimiter_of(line: str) -> str | None:

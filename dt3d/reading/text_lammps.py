@@ -7,16 +7,18 @@ from pathlib import Path
 
 import numpy as np
 
+from .point_data import PointData
 from .text_lines import Lines, content, read_lines, shown, shown_names
 from .text_numbers import numbers
+from .text_values import keep_columns
 
 _COUNT = re.compile(r"[0-9]{1,18}")
 
 
-def read_lammps(path: Path) -> np.ndarray:
+def read_lammps(path: Path, keep: PointData | None = None) -> np.ndarray:
     """The positions of the atoms of one time step: columns x, y, z, or unwrapped xu, yu, zu.
 
-    A dump of two dimensions has no column z.
+    A dump of two dimensions has no column z. ``keep`` gets the other columns.
 
     Returns
     -------
@@ -44,13 +46,17 @@ def read_lammps(path: Path) -> np.ndarray:
     if not _COUNT.fullmatch(promise) or int(promise) != len(rows) or not len(rows):
         msg = f"{shown(promise)} atoms are promised, but {len(rows)} follow"
         raise counts[0].error(0, msg)
-    return _positions(atoms[0], rows)
+    return _positions(atoms[0], rows, keep)
 
 
-def _positions(header: Lines, rows: Lines) -> np.ndarray:
+def _positions(header: Lines, rows: Lines, keep: PointData | None) -> np.ndarray:
     names = header.text[0].split()[2:]
     for axes in (["x", "y", "z"], ["xu", "yu", "zu"], ["x", "y"], ["xu", "yu"]):
         if all(names.count(axis) == 1 for axis in axes):
-            return numbers(rows, None, [names.index(axis) for axis in axes], len(names))
+            columns = [names.index(axis) for axis in axes]
+            found = numbers(rows, None, columns, len(names))
+            if keep is not None:
+                keep_columns(rows, None, names, columns, ".", keep)
+            return found
     msg = f"found columns {shown_names(names)}; expected x, y and z, as 'dump custom ... x y z' writes them"
     raise header.error(0, msg)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .point_data import PointData
 from .text_columns import columns_of
 from .text_lines import Lines, content, read_lines, shown
 
@@ -14,12 +15,12 @@ _COUNT = re.compile(r"[0-9]{1,18}")
 _LANDMARKS = re.compile(r"n_points\s*:\s*([0-9]{1,18})", re.IGNORECASE)
 
 
-def read_pts(path: Path) -> np.ndarray:
+def read_pts(path: Path, keep: PointData | None = None) -> np.ndarray:
     """The points of one or more scans, or landmarks.
 
     A scan is a line with the number of points, and as many lines ``x y z intensity r g b``, of which x, y
     and z are read; the number may be missing. Landmarks have ``version: 1``, ``n_points: n``, and ``x y`` per
-    line in braces.
+    line in braces. ``keep`` gets columns that have names, in a comment.
 
     Returns
     -------
@@ -38,8 +39,10 @@ def read_pts(path: Path) -> np.ndarray:
     if lines.text[0].lower().strip().startswith("version"):
         return _landmarks(lines)
     if not _COUNT.fullmatch(lines.text[0].strip()):
-        return columns_of(whole, leading=True)  # with its comments, which may name columns
+        return columns_of(whole, leading=True, keep=keep)  # with its comments, which may name columns
     scans, at = [], 0
+    if keep is not None and len(lines) > 1 and (width := len(lines.text[1].split())) > 3:
+        keep.leave_out(f"columns 4 to {width}", "they have no names")
     while at < len(lines):
         if not _COUNT.fullmatch(lines.text[at].strip()):
             msg = f"{shown(lines.text[at])}: more points than promised"

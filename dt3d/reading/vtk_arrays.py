@@ -39,13 +39,13 @@ class Arrays:
         For messages.
     root : Element
         VTKFile, which tells the byte order, the type of sizes and the compression.
-    appended : bytes
+    appended : memoryview
         What follows the underscore of AppendedData.
     appended_base64 : bool
         Whether these are letters of base64, and not raw.
     """
 
-    def __init__(self, path: Path, root: ET.Element, appended: bytes, appended_base64: bool) -> None:
+    def __init__(self, path: Path, root: ET.Element, appended: memoryview, appended_base64: bool) -> None:
         self.path, self.appended, self.appended_base64 = path, appended, appended_base64
         self.order: Literal["<", ">"] = ">" if root.get("byte_order") == "BigEndian" else "<"
         self.size = np.dtype("u8" if root.get("header_type") == "UInt64" else "u4").newbyteorder(self.order)
@@ -164,14 +164,14 @@ class _Bytes:
     ``whole``: nothing may follow what is taken last.
     """
 
-    def __init__(self, data: bytes, *, letters: bool, whole: bool) -> None:
+    def __init__(self, data: bytes | memoryview, *, letters: bool, whole: bool) -> None:
         self.data, self.letters, self.whole = data, letters, whole
         self.at = 0
 
     def peek(self, count: int) -> bytes:
         """The first bytes, without going past them."""
         if not self.letters:
-            return self._checked(self.data[:count], count)
+            return self._checked(bytes(self.data[:count]), count)
         piece = self.data[: 4 * -(-count // 3)]
         return self._checked(base64.b64decode(piece, validate=True)[:count], count)
 
@@ -180,11 +180,11 @@ class _Bytes:
         length = 4 * -(-count // 3) if self.letters else count
         piece = self.data[self.at : self.at + length]
         self.at += length
-        return self._checked(base64.b64decode(piece, validate=True) if self.letters else piece, count)
+        return self._checked(base64.b64decode(piece, validate=True) if self.letters else bytes(piece), count)
 
     def take_after(self, header: int, count: int) -> bytes:
         """The bytes after a header, which VTK encodes together with them, and others apart."""
-        apart = self.letters and b"=" in self.data[: 4 * -(-header // 3)]
+        apart = self.letters and b"=" in bytes(self.data[: 4 * -(-header // 3)])
         if not self.letters or apart:
             self.take(header)
             data = self.take(count)

@@ -7,11 +7,13 @@ reader is not used: where a file is cut off it hands over uninitialised memory, 
 from __future__ import annotations
 
 from pathlib import Path
+from urllib.parse import unquote
 
 import numpy as np
 
 from .cursor import Cursor
 from .lattice import image, lattice
+from .point_data import PointData, as_declared
 
 TYPES = {
     "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
@@ -28,8 +30,19 @@ CELL_DATA = "cell data "
 CELL_ARRAYS = ("cells", "vertices", "lines", "polygons", "triangle_strips")
 
 
-def read_legacy(path: Path) -> dict[str, np.ndarray]:
+POINT_DATA = "point data "
+"""Stands before the names of arrays of the points."""
+
+
+def read_legacy(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray]:
     """What the file has, all of which is read.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    keep : PointData, optional
+        Gets the data of the points.
 
     Returns
     -------
@@ -65,7 +78,10 @@ def read_legacy(path: Path) -> dict[str, np.ndarray]:
             of = (word, cursor.count(word.upper(), listed=False))
         elif of[0]:
             if not _attribute(cursor, word, found, of):
-                break  # a kind of attribute that is not known; points and cells come before all of them
+                # a kind of attribute that is not known; points and cells come before all of them
+                if keep is not None:
+                    keep.leave_out(word.upper()[:40], "what begins with this word is not understood")
+                break
         else:
             _structure(cursor, word, found)
     if ("offsets" in found) != ("types" in found):
@@ -75,6 +91,10 @@ def read_legacy(path: Path) -> dict[str, np.ndarray]:
     if not len(points):
         msg = f"{path} holds no points (data set {kind.upper()[:40] or 'missing'})"
         raise ValueError(msg)
+    for name in [name for name in found if name.startswith(POINT_DATA)]:
+        values = found.pop(name)
+        if keep is not None:
+            keep.add(name.removeprefix(POINT_DATA), values)
     return {**found, "points": points}
 
 
@@ -131,11 +151,20 @@ def _attribute(cursor: Cursor, word: str, found: dict[str, np.ndarray], of: tupl
     """Read an attribute of the points or cells; False if its keyword is not known."""
     n = of[1]
     if word in ATTRIBUTES:
-        cursor.word("a name")
-        _typed(cursor, n * ATTRIBUTES[word], word)
+        name = cursor.word("a name")
+        _enter(found, of, name, _typed(cursor, n * ATTRIBUTES[word], word, cast=True), ATTRIBUTES[word])
     elif word == "texture_coordinates":
+        name, width = cursor.word("a name"), cursor.count("a dimension")
+        _enter(found, of, name, _typed(cursor, n * width, word, cast=True), width)
+    elif word == "color_scalars":
+        name, width = cursor.word("a name"), cursor.count("the number of values")
+        # of 0 to 255 in binary, of 0 to 1 in text
+        kind = "f4" if cursor.order is None else "u1"
+        _enter(found, of, name, _after_line(cursor, n * width, kind, word).astype(kind), width)
+    elif word == "lookup_table":
         cursor.word("a name")
-        _typed(cursor, n * cursor.count("a dimension"), word)
+        size = cursor.count("the size of a table")
+        _after_line(cursor, 4 * size, "f4" if cursor.order is None else "u1", word)
     elif word == "scalars":
         name = cursor.word("a name")
         dtype, components = [*cursor.line().split(), "1"][:2]
@@ -143,12 +172,25 @@ def _attribute(cursor: Cursor, word: str, found: dict[str, np.ndarray], of: tupl
             cursor.word("LOOKUP_TABLE"), cursor.line()
         if dtype.lower() not in TYPES or components not in "1234":
             return False
-        values = cursor.array(n * int(components), TYPES[dtype.lower()], word)
-        if of[0] == "cell_data":
-            found[CELL_DATA + name] = values
+        kind = TYPES[dtype.lower()]
+        values = cursor.array(n * int(components), kind, word)
+        if cursor.order is None:
+            values = as_declared(values, kind, f"{cursor.path}: {name[:40]!r}")
+        _enter(found, of, name, values, int(components))
     else:
         return False
     return True
+
+
+def _enter(
+    found: dict[str, np.ndarray], of: tuple[str, int], name: str, values: np.ndarray, width: int
+) -> None:
+    """Put an array of the points or cells among what is found."""
+    if of[0] == "point_data":
+        # this format writes %20 for blanks in names
+        found[POINT_DATA + unquote(name)] = values.reshape(of[1], width) if width > 1 else values
+    elif of[0] == "cell_data" and width == 1:
+        found[CELL_DATA + name] = values
 
 
 def _field(cursor: Cursor, found: dict[str, np.ndarray], of: tuple[str, int]) -> None:
@@ -158,9 +200,12 @@ def _field(cursor: Cursor, found: dict[str, np.ndarray], of: tuple[str, int]) ->
         while (name := cursor.word("the name of an array")).upper() == "METADATA":
             _skip_metadata(cursor)
         components, tuples = cursor.count("components"), cursor.count("tuples")
-        values = _typed(cursor, components * tuples, f"array {name!r}")
-        if of[0] == "cell_data" and components == 1 and tuples == of[1]:
-            found[CELL_DATA + name] = values
+        values = _typed(cursor, components * tuples, f"array {name!r}", cast=True)
+        if of[0] == "point_data" and tuples != of[1]:
+            msg = f"{cursor.path}: array {name[:40]!r} has {tuples} entries, and there are {of[1]} points"
+            raise ValueError(msg)
+        if tuples == of[1]:
+            _enter(found, of, name, values, components)
 
 
 def _skip_metadata(cursor: Cursor) -> None:
@@ -170,32 +215,39 @@ def _skip_metadata(cursor: Cursor) -> None:
         continue
 
 
-def _typed(cursor: Cursor, count: int, what: str) -> np.ndarray:
-    """An array whose type is the last word of the line before it."""
+def _typed(cursor: Cursor, count: int, what: str, *, cast: bool = False) -> np.ndarray:
+    """An array whose type is the last word of the line before it.
+
+    Text is read in double precision; ``cast`` gives it the type that the file says it has.
+    """
     word = cursor.word(f"the type of {what}").lower()
     if word == "bit":
-        return _after_line(cursor, count if cursor.order is None else (count + 7) // 8, "u1", what)
+        bits = _after_line(cursor, count if cursor.order is None else (count + 7) // 8, "u1", what)
+        return np.asarray((bits if cursor.order is None else np.unpackbits(bits)[:count]) != 0)
     if word == "string":
         return _strings(cursor, count)
     if word not in TYPES:
         msg = f"{cursor.path}: {what} are of type {word[:40]!r}; known are {', '.join(TYPES)}"
         raise ValueError(msg)
-    return _after_line(cursor, count, TYPES[word], what)
+    values = _after_line(cursor, count, TYPES[word], what)
+    in_text = cursor.order is None
+    return as_declared(values, TYPES[word], f"{cursor.path}: {what}") if cast and in_text else values
 
 
 def _strings(cursor: Cursor, count: int) -> np.ndarray:
-    """Go past strings, which are of no use here: lines, or in binary bytes after their length."""
+    """Strings: lines, or in binary bytes after their length."""
     cursor.line()
+    found = []
     for _ in range(count):
         if cursor.order is None:
-            cursor.line()
+            found.append(unquote(cursor.line()))
             continue
         # the two highest bits tell how many bytes the length takes
         width = 8 >> (int(cursor.binary(1, np.dtype("u1"), "a string's length")[0]) >> 6)
         cursor.at -= 1
         length = int(cursor.binary(1, np.dtype(f"u{width}"), "a string's length")[0]) % (1 << (8 * width - 2))
-        cursor.binary(length, np.dtype("u1"), "a string")
-    return np.empty(0)
+        found.append(cursor.binary(length, np.dtype("u1"), "a string").tobytes().decode("utf-8", "replace"))
+    return np.array(found, np.str_)
 
 
 def _after_line(cursor: Cursor, count: int, dtype: str, what: str) -> np.ndarray:

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from .lattice import check_room, image, lattice
-from .vtk_arrays import Arrays
+from .point_data import PointData, join
+from .vtk_arrays import TYPES, Arrays
 
 SERIAL = {
     "UnstructuredGrid": "Points",
@@ -31,8 +32,15 @@ CELL_DATA = "cell data "
 """Stands before the names of arrays of the cells."""
 
 
-def read_xml(path: Path) -> dict[str, np.ndarray]:
+def read_xml(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray]:
     """What the file has.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    keep : PointData, optional
+        Gets the data of the points.
 
     Returns
     -------
@@ -48,7 +56,7 @@ def read_xml(path: Path) -> dict[str, np.ndarray]:
     root, arrays = _parse(path)
     kind = root.get("type", "")
     if kind == "vtkMultiBlockDataSet":
-        return {"points": _blocks(path, root)}
+        return {"points": _blocks(path, root, keep)}
     if kind not in SERIAL:
         known = ", ".join([*SERIAL, "vtkMultiBlockDataSet"])
         msg = f"{path}: a VTKFile of type {kind[:40]!r}; known are {known}"
@@ -63,6 +71,10 @@ def read_xml(path: Path) -> dict[str, np.ndarray]:
         raise ValueError(msg)
     assert grid is not None
     found = [_piece(path, kind, grid, piece, arrays) for piece in pieces]
+    if keep is not None:
+        sizes = [len(part["points"]) for part in found]
+        listed = [_point_data(path, piece, n, arrays) for piece, n in zip(pieces, sizes, strict=True) if n]
+        join(keep, listed)
     points = np.concatenate([part["points"] for part in found])
     if not len(points):
         msg = f"{path} holds no points ({kind})"
@@ -74,13 +86,13 @@ def _parse(path: Path) -> tuple[ET.Element, Arrays]:
     """The tree, and the reader of its arrays, with the bytes that are appended to it."""
     data = path.read_bytes()
     tag = re.search(rb"<AppendedData\s+encoding\s*=\s*[\"'](raw|base64)[\"']\s*>\s*_", data)
-    appended, base64 = b"", True
+    appended, base64 = memoryview(b""), True
     if tag is not None:
         end = data.rfind(b"</AppendedData>")
         if end < tag.end():
             msg = f"{path} is cut off: its appended data do not end"
             raise ValueError(msg)
-        appended, base64 = data[tag.end() : end], tag[1] == b"base64"
+        appended, base64 = memoryview(data)[tag.end() : end], tag[1] == b"base64"
         # raw bytes are no XML
         data = data[: tag.start()] + data[end + len(b"</AppendedData>") :]
     parser = ET.XMLParser(target=_NoEntities())
@@ -137,6 +149,22 @@ def _piece(
     return found
 
 
+def _point_data(path: Path, piece: ET.Element, n: int, arrays: Arrays) -> PointData:
+    """The data of the n points of a piece."""
+    found = PointData()
+    for array in piece.findall("PointData/*"):
+        name, kind = array.get("Name", ""), array.get("type", "")
+        if array.tag != "DataArray" or kind not in TYPES:
+            why = "text of VTK's XML files is not read" if kind == "String" else f"its type is {kind[:40]!r}"
+            found.leave_out(name, why)
+            continue
+        # VTK itself writes 0 or nothing for scalars
+        width = _number(path, array, "NumberOfComponents") or 1
+        values = arrays.read(array, n * width).reshape(n, width)
+        found.add(name, values, TYPES[kind] if array.get("format", "ascii") == "ascii" else None)
+    return found
+
+
 def _cells(path: Path, piece: ET.Element, m: int, arrays: Arrays) -> dict[str, np.ndarray]:
     listed = {array.get("Name"): array for array in piece.findall("Cells/DataArray")}
     if missing := {"connectivity", "offsets", "types"} - listed.keys():
@@ -168,9 +196,9 @@ def _joined(pieces: list[dict[str, np.ndarray]]) -> dict[str, np.ndarray]:
     return {**found, "offsets": np.append(0, np.cumsum(sizes))}
 
 
-def _blocks(path: Path, root: ET.Element) -> np.ndarray:
+def _blocks(path: Path, root: ET.Element, keep: PointData | None) -> np.ndarray:
     """The points of all files that a multi-block file names, in its order."""
-    found = []
+    found, data = [], []
     for block in root.iter("DataSet"):
         if (name := block.get("file")) is None:
             continue
@@ -181,10 +209,13 @@ def _blocks(path: Path, root: ET.Element) -> np.ndarray:
         if not part.is_file():
             msg = f"{path} names the block {name!r}, and there is no such file"
             raise ValueError(msg)
-        found.append(read_xml(part)["points"])
+        data.append(PointData())
+        found.append(read_xml(part, None if keep is None else data[-1])["points"])
+        data[-1].check(str(part), len(found[-1]))
     if not found:
         msg = f"{path} names no files of blocks"
         raise ValueError(msg)
+    join(keep, data)
     return np.concatenate(found)
 
 

@@ -299,3 +299,10 @@ def test_importing_dt3d_loads_nothing_heavy_but_jax():
     code = f"import sys, dt3d; print(sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+def test_the_help_loads_nothing_that_computes():
+    heavy = "{'numpy', 'numba', 'jax', 'scipy'}"
+    code = f"import sys, dt3d.cli as cli; cli.main(['--help']); print(sorted({heavy} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -1,5 +1,6 @@
 """`dt3d info`, `warmup` and `completion`: what concerns a machine and not a set of points."""
 
+import importlib.metadata
 import json
 import os
 import subprocess
@@ -9,20 +10,20 @@ import pytest
 
 import dt3d
 from dt3d import _warmup, cli
-from dt3d.cli import info, warmup
+from dt3d.cli import warmup
 from dt3d.predicates import lexicographic
 
 
 def test_info_says_what_is_installed(capsys, monkeypatch):
-    found = info.importlib.metadata.version
-    absent = info.importlib.metadata.PackageNotFoundError
+    found = importlib.metadata.version
+    absent = importlib.metadata.PackageNotFoundError
 
     def version(name):
         if name == "gemmi":
             raise absent
         return found(name)
 
-    monkeypatch.setattr(info.importlib.metadata, "version", version)
+    monkeypatch.setattr(importlib.metadata, "version", version)
     assert cli.main(["info"]) == 0
     out = capsys.readouterr().out
     assert f" {dt3d.__version__} in " in out
