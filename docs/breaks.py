@@ -1,4 +1,4 @@
-"""Code in cells of tables may break before a dot and behind a parenthesis, so that wide tables fit a page.
+"""Code in cells of tables may break before a dot and behind a bracket or slash: wide tables then fit a page.
 
 By ``<wbr>``, which a browser does not copy with the text.
 """
@@ -12,7 +12,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 LONG = 24  # shorter code stays in one piece
-BREAK = re.compile(r"(?<=[\w)\]])(?=\.[A-Za-z_])|(?<=\()(?=[^)])")
+BREAK = re.compile(r"(?<=[\w)\]])(?=\.(?!py\b)[A-Za-z_])|(?<=\()(?=[^)])|(?<=/)(?=\w)")
 
 
 def allow(app: Sphinx, doctree: nodes.document, docname: str) -> None:

@@ -6,13 +6,11 @@ where they stand, each is a page, and their links and pictures work as they do i
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]
-os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
+sys.path[:0] = [str(ROOT), str(Path(__file__).parent)]  # this checkout, and the extensions beside this file
 
 import dt3d  # noqa: E402  the path comes first
 
@@ -32,14 +30,14 @@ extensions = [
 ]
 
 root_doc = "docs/index"
+# what is read: folders of programs and of what was built are not walked through
 include_patterns = ["*.md", "docs/**.md", "**/README.md"]
 exclude_patterns = [".*", "docs/_build", "build", "dist", "out", "**/__pycache__"]
 source_suffix = {".md": "markdown"}
 
 # -- text
 
-myst_enable_extensions: list[str] = []
-default_role = "py:obj"
+default_role = "py:obj"  # single backticks in docstrings are names, and links
 highlight_language = "none"  # blocks without a name are commands and drawings
 
 # -- API

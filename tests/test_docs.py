@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from dataclasses import dataclass, field
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote
@@ -149,6 +150,22 @@ def test_every_member_has_an_example(name):
     members = _members(name)
     assert len(members) > 1
     assert not [member for member, documented in members.items() if ">>>" not in (documented.__doc__ or "")]
+
+
+def test_lines_in_tables_are_whole_though_they_may_break(pages):
+    shown = unescape(re.sub(r"<[^>]*>", "", pages["docs/one_line.html"].text))
+    lines = re.findall(r"\| `([^`]+)` \|", page("docs/one_line.md"))
+    assert len(lines) > 30
+    assert not [line for line in lines if line not in shown]
+    assert "<wbr>.vertex_neighbor_vertices" in pages["docs/one_line.html"].text
+
+
+def test_programs_are_pages_with_all_of_their_text(pages):
+    linked = {name for name in pages if name.startswith("source/examples/")}
+    programs = [path.name for path in (ROOT / "examples").glob("*.py")]
+    assert linked == {f"source/examples/{name}.html" for name in programs}
+    shown = unescape(re.sub(r"<[^>]*>", "", pages["source/examples/from_scipy.py.html"].text))
+    assert page("examples/from_scipy.py").strip() in shown
 
 
 def test_commands_and_experiments_are_on_their_page(pages):

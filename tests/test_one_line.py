@@ -61,7 +61,7 @@ def same_cells(theirs, ours):
 
 
 def nearly_the_terrain(theirs, ours):
-    """VTK's misses triangles at the border, with any offset."""
+    """VTK's is short of triangles at the border, with its default offset."""
     assert 0.98 * ours.n_cells < theirs.n_cells <= ours.n_cells
     assert ours.n_points == theirs.n_points
 
