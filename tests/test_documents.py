@@ -79,15 +79,15 @@ def test_all_programs_of_the_site(name, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_all_programs_of_the_readme(tmp_path, monkeypatch, capsys):
+def test_all_programs_of_the_readme(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = [run([program]) for program in FEWER]
-    names = found[-1]
+    (names,) = (names for names in found if "cm5" in names and "tri" in names)
     ledger = names["cm5"].ledger
     assert len((tmp_path / "steps.csv").read_text().splitlines()) == ledger.steps + 1
     assert names["cm5"].ledgers[256].seconds < ledger.seconds
     assert len(names["tri"].simplices) == len(dt3d.Delaunay(names["points"]).simplices)
-    assert "face expansion" in capsys.readouterr().out
+    assert ledger.by_phase()["face expansion"] > 0
 
 
 @pytest.mark.parametrize("name", PAGES)
