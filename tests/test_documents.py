@@ -87,7 +87,7 @@ def test_all_programs_of_the_readme(tmp_path, monkeypatch):
     assert len((tmp_path / "steps.csv").read_text().splitlines()) == ledger.steps + 1
     assert names["cm5"].ledgers[256].seconds < ledger.seconds
     assert len(names["tri"].simplices) == len(dt3d.Delaunay(names["points"]).simplices)
-    assert ledger.by_phase()["face expansion"] > 0
+    assert "face expansion" in {row.phase for row in ledger.table("phase")}
 
 
 @pytest.mark.parametrize("name", PAGES)
