@@ -304,5 +304,6 @@ def test_importing_dt3d_loads_nothing_heavy_but_jax():
 def test_the_help_loads_nothing_that_computes():
     heavy = "{'numpy', 'numba', 'jax', 'scipy'}"
     code = f"import sys, dt3d.cli as cli; cli.main(['--help']); print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    # a frame is drawn in letters that the locale may not have
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
     assert done.stdout.splitlines()[-1] == "[]"
