@@ -212,7 +212,8 @@ def test_errors_are_one_line(points, tmp_path, capsys):
 )
 def test_wrong_words_have_status_2_and_one_line(words, text, capsys):
     line = fails(capsys, *words)
-    assert text in line
+    # some versions of Cyclopts put names in quotes
+    assert text.replace('"', "") in line.replace('"', "")
     assert line.endswith("(dt3d --help has the words)\n")
 
 
