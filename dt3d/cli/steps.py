@@ -57,7 +57,8 @@ class Steps:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._bars.stop()
+        if not self._bars.disable:  # where it is, rich before 14.3 prints an empty line
+            self._bars.stop()
 
     @contextmanager
     def step(self, name: str, *, counts: bool = False) -> Iterator[Callable[[int, int], None]]:

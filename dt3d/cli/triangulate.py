@@ -144,12 +144,12 @@ class _Job:
         check(output)
         data, left_out = carried(cloud.point_data, output.suffix)
         left_out = {**cloud.left_out, **left_out}
-        if left_out:
-            logging.getLogger("dt3d").warning(said(left_out))
         tri = triangulated(self.speaker, steps, points, self.choice, machine)
         if self.delivery.verify:
             with steps.step("verifying"):
                 self.check(tri)
+        if left_out:  # an error before is one line, and this another
+            logging.getLogger("dt3d").warning(said(left_out))
         with steps.step("writing"):
             write(tri, output, point_data=data, compress=self.delivery.compress)
         if self.picture is not None:

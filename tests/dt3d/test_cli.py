@@ -212,7 +212,8 @@ def test_errors_are_one_line(points, tmp_path, capsys):
 )
 def test_wrong_words_have_status_2_and_one_line(words, text, capsys):
     line = fails(capsys, *words)
-    assert text in line
+    # some versions of Cyclopts put names in quotes
+    assert text.replace('"', "") in line.replace('"', "")
     assert line.endswith("(dt3d --help has the words)\n")
 
 
@@ -304,5 +305,6 @@ def test_importing_dt3d_loads_nothing_heavy_but_jax():
 def test_the_help_loads_nothing_that_computes():
     heavy = "{'numpy', 'numba', 'jax', 'scipy'}"
     code = f"import sys, dt3d.cli as cli; cli.main(['--help']); print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    # a frame is drawn in letters that the locale may not have
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
     assert done.stdout.splitlines()[-1] == "[]"

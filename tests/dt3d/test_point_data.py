@@ -507,3 +507,47 @@ def test_names_are_kept_apart_and_printable():
     join(None, [keep])
     keep.add("mixed", np.zeros(2, [("p", int)]))
     assert "mixed" in keep.left_out
+
+
+def gmsh(rows, tags=(4, 2, 9, 1)):
+    """A file with four nodes and one view of them, in text."""
+    nodes = "".join(f"{tag} {k % 2} {k // 2} {k == 3:d}\n" for k, tag in enumerate(tags))
+    head = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n{nodes}$EndNodes\n$Elements\n0\n$EndElements\n"
+    view = f'$NodeData\n1\n"warm air"\n1\n0.0\n3\n0\n1\n{len(rows)}\n'
+    return head + view + "".join(f"{tag} {value}\n" for tag, value in rows) + "$EndNodeData\n"
+
+
+def test_views_of_gmsh_go_by_the_tags_of_nodes(tmp_path):
+    path = tmp_path / "a.msh"
+    path.write_text(gmsh([(1, 10.5), (2, 20), (4, 40), (9, 90)]))
+    assert read_cloud(path).point_data["warm air"].tolist() == [40, 20, 90, 10.5]
+    path.write_text(gmsh([(1, 10.5), (2, 20)]))
+    found = read_cloud(path)
+    assert (dict(found.point_data), found.left_out) == ({}, {"warm air": "2 of 4 nodes have it"})
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            gmsh([(1, 1), (2, 2), (4, 4), (4, 9)]),
+            "data 'warm air' name a node twice, or one that is not there",
+        ),
+        (
+            gmsh([(1, 1), (2, 2), (4, 4), (5, 9)]),
+            "data 'warm air' name a node twice, or one that is not there",
+        ),
+        (gmsh([(1, 1)]).replace("$EndNodeData", "7"), "expected \\$EndNodeData after 'warm air', found '7'"),
+        (gmsh([(1, 1)]).replace("\n1\n1\n1 1", "\n0\n1\n1 1"), "have the integer tags \\[0, 0, 1\\]"),
+        (
+            gmsh([(1, 1)]).replace("\n0.0\n3\n", "\n0.0\nx\n"),
+            "expected the number of integer tags, found 'x'",
+        ),
+    ],
+)
+def test_broken_views_of_gmsh(tmp_path, text, message):
+    path = tmp_path / "a.msh"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=message):
+        read_cloud(path)
+    assert len(read_points(path)) == 4

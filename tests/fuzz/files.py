@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 import dt3d
-from dt3d.files import read_mesh, read_points, write_mesh
+from dt3d.files import read_cloud, read_mesh, read_points, write_mesh
 
 from .families import Rng
 from .oracle import require
@@ -127,6 +127,7 @@ def _written(points: np.ndarray) -> dict[str, bytes]:
 
     tri = dt3d.Delaunay(points)
     cloud = pv.PolyData(points)
+    cloud["heat"], cloud["flow field"] = points[:, 0].astype(np.float32), points
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for extension in MESHES:
@@ -223,6 +224,7 @@ def file_trial(name: str, k: int) -> list[str]:
             require(np.array_equal(found, again, equal_nan=True), "the same file has the same points")
             if kind == "truncate":
                 _require_prefix(found, samples()[name][1])
+        _read(_cloud, path)
         if path.suffix in MESHES:
             _read(read_mesh, path)
     return [kind, outcome]
@@ -286,6 +288,13 @@ def _printed() -> Iterator[list[str]]:
 
 def _points(path: Path) -> np.ndarray:
     return read_points(path, dimension=None)
+
+
+def _cloud(path: Path) -> np.ndarray:
+    cloud = read_cloud(path, dimension=None)
+    for name, values in cloud.point_data.items():
+        require(len(values) == len(cloud.points), f"{name} has an entry for each point")
+    return cloud.points
 
 
 def _require_prefix(found: np.ndarray, whole: np.ndarray) -> None:
