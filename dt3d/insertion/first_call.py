@@ -45,8 +45,8 @@ def compile_compaction() -> None:
 
 
 def compile_seldom() -> None:
-    """Compile what ties and large stars need; a grid asks for the in-sphere test first, so that is last."""
-    for place in (ORIENT3D_OPEN, LINK_WIDE, IN_SPHERE_OPEN):
+    """Compile what ties and large stars need; a grid asks for orientations first, so they are last."""
+    for place in (IN_SPHERE_OPEN, ORIENT3D_OPEN, LINK_WIDE):
         FUNCTIONS.address(place)
 
 

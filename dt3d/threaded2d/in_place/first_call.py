@@ -35,8 +35,8 @@ def compile_steps() -> None:
 
 
 def compile_ties() -> None:
-    """Compile what decides ties; a grid asks for the in-circle test first, so that is last."""
-    for place in (ORIENT2D_OPEN, IN_CIRCLE_OPEN):
+    """Compile what decides ties; a grid asks for orientations first, so they are last."""
+    for place in (IN_CIRCLE_OPEN, ORIENT2D_OPEN):
         FUNCTIONS.address(place)
 
 
