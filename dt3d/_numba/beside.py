@@ -12,6 +12,7 @@ import atexit
 import os
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 
 from .announce import announce
@@ -43,10 +44,16 @@ def end_all() -> None:
 
 def _end(child: subprocess.Popen[bytes]) -> None:
     child.kill()
-    child.wait()
+    _take_leave(child)
     assert child.stdout is not None
     child.stdout.close()
-    CHILDREN.remove(child)
+
+
+def _take_leave(child: subprocess.Popen[bytes]) -> None:
+    """Wait for its end, so that no entry of it stays in the system's table."""
+    child.wait()
+    if child in CHILDREN:
+        CHILDREN.remove(child)
 
 
 def _is_python(path: str | None) -> bool:
@@ -91,6 +98,7 @@ def compiled_beside(
         return None
     announce(module)
     CHILDREN.append(child)
+    threading.Thread(target=_take_leave, args=(child,), daemon=True).start()
 
     def wait() -> None:
         assert child.stdout is not None
@@ -99,5 +107,7 @@ def compiled_beside(
         except BaseException:  # Ctrl-C
             _end(child)
             raise
+        finally:
+            child.stdout.close()
 
     return wait
