@@ -40,6 +40,20 @@ def check_points(points: PointsLike, dimension: int | None = None) -> np.ndarray
     return array
 
 
+def check_more_points(points: PointsLike, dimension: int) -> np.ndarray:
+    """Points to be added, as `check_points` returns them; there may be none.
+
+    Raises
+    ------
+    ValueError
+        As `check_points` does, but for their number.
+    """
+    given, _ = as_numbers(points, "points", dimension)
+    if given.shape in ((0,), (0, dimension)):
+        return np.empty((0, dimension))
+    return check_points(points, dimension)
+
+
 def check_queries(xi: npt.ArrayLike, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
     """Points to be located, as float64 (k, dimension), and the shape of the answers. There may be any number.
 
@@ -201,6 +215,20 @@ def no_area(dimension: int, n: int) -> DegenerateInputError:
         f"that came {['coincide', 'lie on a line'][dimension]} (dimension {dimension})"
     )
     return DegenerateInputError(msg, dimension)
+
+
+def scale_exponent(sites: np.ndarray) -> int:
+    """The e with which `exactly_scaled` gives sites / 2^e."""
+    from .predicates.workspace import scale_exponent
+
+    return scale_exponent(sites)
+
+
+def scaled_by(sites: np.ndarray, exponent: int) -> np.ndarray | None:
+    """Sites / 2^exponent, float64 (n, d); None where that is not exact."""
+    from .predicates.workspace import scaled_by
+
+    return scaled_by(sites, exponent)
 
 
 def exactly_scaled(sites: np.ndarray) -> np.ndarray:

@@ -7,20 +7,21 @@ dimension, n the number of sites, m that of simplices.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lifting
 from ._geometry import Geometry
-from ._input import check_queries
+from ._input import check_more_points, check_queries
 from ._results import frozen
 from ._topology import OUTSIDE
 
 if TYPE_CHECKING:
     import scipy.spatial
 
+    from ._given import PointsLike
     from .location import Locator
 
 
@@ -357,39 +358,65 @@ class SciPyMembers(Geometry):
 
         return Locator(self.points, self.simplices, self.neighbors, self._exact)
 
-    def add_points(self, points: npt.ArrayLike, restart: bool = False) -> NoReturn:
-        """As SciPy's class without ``incremental=True``: sites cannot be added.
+    def add_points(self, points: PointsLike, restart: bool = False) -> None:
+        """Add sites to a triangulation that was made with ``incremental=True``.
+
+        They get the numbers after those that are there. The result is the same as of all sites at once, but
+        for the order of the simplices. Arrays of the user's are as they were; `simplices` and all others are
+        new, and are made when they are asked for. In space the triangulation goes on; in the plane, and where
+        there are many new sites or larger coordinates than so far, all sites are triangulated again then.
+
+        Parameters
+        ----------
+        points : array_like (k, d)
+            As many as one likes, or none.
+        restart : bool
+            Whether all sites are to be triangulated again in any case, as in SciPy's class.
 
         Raises
         ------
         RuntimeError
-            Always.
+            Without ``incremental=True``, after `close`, and for copies and pickles, which are finished.
+        ValueError
+            If the points are not what they should be; then nothing has changed.
 
         Examples
         --------
         >>> import dt3d
-        >>> import numpy as np
-        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
-        >>> dt3d.Delaunay(np.concatenate([tri.points, [[1, 1.5]]]))
-        <dt3d.Delaunay: 5 sites, 4 triangles>
+        >>> tri = dt3d.Delaunay([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]], incremental=True)
+        >>> tri.add_points([[2, 2, 2], [0, 0, 0]])
+        >>> tri, tri.duplicates.tolist()
+        (<dt3d.Delaunay: 6 sites, 2 tetrahedra>, [[5, 0]])
         """
-        msg = (
-            "sites cannot be added to a finished triangulation; triangulate all of them again, as of "
-            "np.concatenate([tri.points, points])"
-        )
-        raise RuntimeError(msg)
+        living = self.__dict__.get("_living")
+        if living is None:
+            msg = (
+                "sites cannot be added to a finished triangulation; make it with incremental=True, or "
+                "triangulate all of them again, as of np.concatenate([tri.points, points])"
+            )
+            raise RuntimeError(msg)
+        if not isinstance(restart, bool | np.bool_):
+            msg = f"restart must be True or False, got {restart!r}"
+            raise ValueError(msg)
+        more = check_more_points(points, self.ndim)
+        living.add(more, bool(restart))
+        for name in (*self._arrays_of(self.__dict__), "stats"):
+            self.__dict__.pop(name, None)
+        self._keep(points=living.points)
 
     def close(self) -> None:
-        """As SciPy's class, where it ends an incremental triangulation; nothing is open here.
+        """End an incremental triangulation: no sites can be added, and its store is given up.
 
         Examples
         --------
         >>> import dt3d
-        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]])
+        >>> tri = dt3d.Delaunay([[0, 0], [2, 0], [0, 2], [3, 3]], incremental=True)
         >>> tri.close()
         >>> len(tri.simplices)
         2
         """
+        self._finish()
+        self.__dict__.pop("_living", None)
 
     def to_scipy(self) -> scipy.spatial.Delaunay:
         """The same triangulation as an object of SciPy's class, for functions that ask for one.

@@ -31,8 +31,12 @@ REFUSED = {
 }
 
 
-def check_scipy_options(furthest_site: object, incremental: object, qhull_options: object, name: str) -> None:
-    """Check what SciPy's class ``name`` takes in these places.
+def check_scipy_options(
+    furthest_site: object, incremental: object, qhull_options: object, name: str, grows: bool = False
+) -> bool:
+    """Check what SciPy's class ``name`` takes in these places; whether sites are to be added later.
+
+    ``grows`` says whether they can be.
 
     Raises
     ------
@@ -45,14 +49,15 @@ def check_scipy_options(furthest_site: object, incremental: object, qhull_option
             f"scipy.spatial.{name} serves it"
         )
         raise ValueError(msg)
-    if _flag("incremental", incremental):
+    growing = _flag("incremental", incremental)
+    if growing and not grows:
         msg = (
-            f"incremental=True is not served yet: a finished result takes no more sites. Make a new one of "
-            f"all sites, at a few microseconds per site; scipy.spatial.{name} serves it"
+            f"incremental=True is not served yet: a finished diagram takes no more sites. Make a new one of "
+            f"all sites, or of dt3d.Delaunay(points, incremental=True); scipy.spatial.{name} serves it"
         )
         raise ValueError(msg)
     if qhull_options is None:
-        return
+        return growing
     if isinstance(qhull_options, bytes):
         qhull_options = qhull_options.decode("latin1")
     if not isinstance(qhull_options, str):
@@ -64,6 +69,7 @@ def check_scipy_options(furthest_site: object, incremental: object, qhull_option
         why = REFUSED.get(option, f"those that change nothing here are {' '.join(sorted(NO_EFFECT))}")
         msg = f"qhull_options={qhull_options!r}: {option} is not served; {why}"
         raise ValueError(msg)
+    return growing
 
 
 def _flag(name: str, value: object) -> bool:

@@ -5,7 +5,7 @@ Here d is the dimension, 2 or 3, n the number of sites and m that of simplices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Unpack
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, Unpack
 
 import numpy as np
 
@@ -289,9 +289,35 @@ class Triangulation(Result):
 
     if not TYPE_CHECKING:  # to mypy there would be every attribute
 
-        def __getattr__(self, name: str) -> NoReturn:
-            """Say of an attribute of the other dimension why it is not there."""
-            self._only_elsewhere(name)
+        def __getattr__(self, name: str) -> object:
+            """Results that are not made yet; of an attribute of the other dimension why it is not there."""
+            if "_living" in self.__dict__ and name in (*self._arrays_of(self.__dict__), "stats"):
+                self._finish()
+                return self.__dict__[name]
+            return self._only_elsewhere(name)
+
+    def __getstate__(self) -> dict[str, object]:
+        """What a pickle has: the results as they are now; no sites can be added to what it becomes."""
+        self._finish()
+        state = super().__getstate__()
+        state.pop("_living", None)
+        return state
+
+    def __copy__(self) -> Self:
+        """Share the arrays, which nobody changes; no sites can be added to the copy."""
+        self._finish()
+        copy = super().__copy__()
+        copy.__dict__.pop("_living", None)
+        return copy
+
+    def _finish(self) -> None:
+        """Make the results that sites added since have left open."""
+        if "_living" in self.__dict__ and "simplices" not in self.__dict__:
+            self._catch_up()
+
+    def _catch_up(self) -> None:
+        """Make the results of all sites so far, where sites can be added."""
+        raise NotImplementedError
 
     def _only_elsewhere(self, name: str) -> NoReturn:
         d = _dimension(self.__dict__)

@@ -14,6 +14,7 @@ from ._errors import DegenerateInputError
 from ._extrapolation_options import search_options
 from ._given import PointsLike
 from ._input import advised, check_points, check_seed, exactly_scaled, word_of
+from ._living import Living
 from ._options import Method, SpaceOptions, check_names, check_of_plane, check_space_options
 from ._results import Names
 from ._scipy_members import SciPyMembers
@@ -67,8 +68,10 @@ class Delaunay(SciPyMembers):
     points : array_like (n, 2) or (n, 3)
         Sites: real, finite, at least d + 1 that do not lie on a plane, in the plane on a line. Also a
         table of pandas, a dataset of PyVista.
-    furthest_site, incremental : bool
+    furthest_site : bool
         As in SciPy's class, False only.
+    incremental : bool
+        As in SciPy's class: whether `add_points` may add sites later. By insertion only.
     qhull_options : str, optional
         As in SciPy's class. Options that say how Qhull rounds, scales and merges change nothing here; those
         that ask for another result raise a ValueError.
@@ -192,11 +195,14 @@ class Delaunay(SciPyMembers):
         **options: Unpack[SpaceOptions],
     ) -> None:
         begun = time.perf_counter()
-        check_scipy_options(furthest_site, incremental, qhull_options, "Delaunay")
+        grows = check_scipy_options(furthest_site, incremental, qhull_options, "Delaunay", grows=True)
         seed = check_seed(seed)
         check_names(options, SpaceOptions.__annotations__, "dt3d.Delaunay")
         chosen, working, exact = check_space_options(method, threads, options)
         sites = check_points(points)
+        if grows:
+            self._begin_to_grow(sites, points, chosen, seed, threads, options)
+            return
         if sites.shape[1] == 2:
             check_of_plane(method, options)
             self._insert_in_plane(sites, seed, threads, begun)
@@ -229,6 +235,37 @@ class Delaunay(SciPyMembers):
             self._take(outcome, machine, begun)
         except DegenerateInputError as error:
             raise advised(error, points) from None
+
+    def _begin_to_grow(
+        self,
+        sites: np.ndarray,
+        points: PointsLike,
+        chosen: str,
+        seed: int,
+        threads: int | None,
+        options: SpaceOptions,
+    ) -> None:
+        if chosen != "insertion" or options.get("callback") is not None:
+            msg = (
+                "incremental=True goes with insertion, without a callback: leave out method, machine, "
+                "robustness and callback"
+            )
+            raise ValueError(msg)
+        if sites.shape[1] == 2:
+            check_of_plane("auto", options)
+        self._keep(points=sites, _exact=True)
+        self.__dict__["_living"] = Living(sites, word_of(seed), threads)
+        try:
+            self._catch_up()
+        except DegenerateInputError as error:
+            raise advised(error, points) from None
+
+    def _catch_up(self) -> None:
+        living = self.__dict__["_living"]
+        if self.ndim == 2:
+            self._insert_in_plane(living.points, living.seed, living.threads, time.perf_counter())
+        else:
+            self._keep(**living.in_space())
 
     def _insert(
         self, seed: int, threads: int | None, report: Callable[[int, int, int], None], begun: float

@@ -19,7 +19,7 @@ from ..ordering.brio import insertion_rounds
 from ..ordering.duplicates import copied, separate_copies
 from .compaction import count_finite, number_finite, write_finite
 from .first_call import insert_beside
-from .mesh import FREE, MOST_SLOTS, aligned, vertices
+from .mesh import MOST_SLOTS, aligned
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
 from .worker import State
@@ -50,6 +50,17 @@ class Outcome:
     seconds: dict[str, float]
 
 
+@dataclass
+class Inserted:
+    """A triangulation in its store."""
+
+    store: Store
+    team: Team
+    original: npt.NDArray[np.int32]  # (n,): the site of the input in each row of the store
+    duplicates: npt.NDArray[np.int32]  # (k, 2)
+    seconds: dict[str, float]
+
+
 def triangulate(
     sites: npt.NDArray[np.float64],
     seed: int = 0,
@@ -72,6 +83,32 @@ def triangulate(
     MemoryError
         If the system has no room for the threads or the tetrahedra.
     """
+    run = inserted(sites, seed, threads, report)
+    begun = time.perf_counter()
+    team = run.team
+    team.mark_fresh()
+    simplices, neighbors = compact(run.store, run.original, len(team.workers), room)
+    run.seconds["compaction"] = time.perf_counter() - begun
+    return Outcome(
+        simplices,
+        neighbors,
+        run.duplicates,
+        walked=team.count(State.WALKED),
+        tested=team.count(State.TESTED),
+        created=team.count(State.CREATED),
+        threads=len(team.workers),
+        deferred=team.deferred,
+        seconds=run.seconds,
+    )
+
+
+def inserted(
+    sites: npt.NDArray[np.float64],
+    seed: int = 0,
+    threads: int | None = None,
+    report: Callable[[int, int], None] | None = None,
+) -> Inserted:
+    """The same up to the last site; the tetrahedra are in their store."""
     most = max(1, len(sites) // (8 * LEAST_SITES_PER_THREAD)) if threads is None else threads
     threads = min(most, available_cores())
     least, reserved = (
@@ -98,23 +135,7 @@ def triangulate(
         team.insert_round(todo[begin:end])
     tell(n, team.slots)
     seconds["insertion"] = time.perf_counter() - begun
-
-    begun = time.perf_counter()
-    for worker in team.workers:
-        vertices(store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
-    simplices, neighbors = _compact(store, original, threads, room)
-    seconds["compaction"] = time.perf_counter() - begun
-    return Outcome(
-        simplices,
-        neighbors,
-        duplicates,
-        walked=team.count(State.WALKED),
-        tested=team.count(State.TESTED),
-        created=team.count(State.CREATED),
-        threads=threads,
-        deferred=team.deferred,
-        seconds=seconds,
-    )
+    return Inserted(store, team, original, duplicates, seconds)
 
 
 def _told(report: Callable[[int, int], None] | None, n: int) -> Callable[[int, int], None]:
@@ -161,7 +182,7 @@ def _first(points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
     return first_tetrahedron(np.ascontiguousarray(points), 0)
 
 
-def _compact(
+def compact(
     store: Store,
     original: npt.NDArray[np.int32],
     threads: int,

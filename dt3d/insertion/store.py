@@ -46,6 +46,7 @@ class Store:
             raise ValueError(_too_many(slots))
         self.assured = assured
         self.sites = sites
+        self._room = sites  # its first words are ``sites``
         self.tetrahedra = aligned(8 * slots, np.uint32)
         self.spheres = aligned(4 * slots, np.float64)
         self.capacity = slots
@@ -71,6 +72,18 @@ class Store:
                 self.assured = end
             self.used = min(begin + self.block, self.capacity)
             return begin, self.used
+
+    def add_sites(self, rows: npt.NDArray[np.float64]) -> int:
+        """Put rows of sites, float64 (4 k,), after those that are there; returns the number of the first.
+
+        Twice the memory where it is not enough, so that a site is copied twice on average.
+        """
+        begin, end = len(self.sites), len(self.sites) + len(rows)
+        if end > len(self._room):
+            self._room = _longer(self._room, begin, max(2 * begin, end))
+        self._room[begin:end] = rows
+        self.sites = self._room[:end]
+        return begin // 4
 
     def grow(self) -> None:
         """Twice the memory, or as much as can be named, with what is there; for when no thread inserts.

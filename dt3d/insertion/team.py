@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from .._errors import InternalError
 from .._numba.threads import run_short_tasks, run_threads
-from .insert import ENDLESS_WALK, FAULTS, NEEDS_SCRATCH, NEEDS_SLOTS, insert
-from .mesh import INFINITE, vertices
+from .insert import ENDLESS_WALK, FAULTS, NEEDS_SCRATCH, NEEDS_SLOTS, OCCUPIED, insert
+from .mesh import FREE, INFINITE, vertices
 from .store import Store
 from .walk import locate
 from .worker import Scale, State, Worker, scratch_for
@@ -71,6 +71,7 @@ class Team:
         self.inserted = 4
         self.deferred = 0
         self.stopped = False
+        self.equal: list[tuple[int, int]] | None = None  # where equal sites are no fault: those found
 
     def insert_round(self, pending: npt.NDArray[np.uint32]) -> None:
         """Insert sites, ascending; what a thread or the report raises is raised with no thread left running.
@@ -88,6 +89,29 @@ class Team:
             pending = self._insert_in_parts(pending, parts, number)
             self.inserted = done - len(pending)
             self.deferred += len(pending)
+        self._insert_alone(pending, done)
+
+    def insert_added(self, pending: npt.NDArray[np.uint32]) -> list[tuple[int, int]]:
+        """Insert sites that were added to the store, by one thread, in the order in which they come.
+
+        Returns pairs of those that are where another one is already, and that one.
+
+        Raises
+        ------
+        InternalError
+            As `insert_round` does.
+        """
+        self.n = len(self.store.sites) // 4
+        self.workers[0].state[State.SITES] = self.n
+        found: list[tuple[int, int]] = []
+        self.equal = found
+        self._insert_alone(pending, self.inserted + len(pending))
+        self.inserted -= len(found)
+        self.equal = None
+        return found
+
+    def _insert_alone(self, pending: npt.NDArray[np.uint32], done: int) -> None:
+        """Insert sites by one thread; there are ``done`` of them then."""
         worker = self.workers[0]
         growths = 0
         while len(pending):
@@ -154,6 +178,11 @@ class Team:
         while state[State.NEXT] < len(worker.todo) and not self.stopped:
             state[State.STOP] = min(int(state[State.NEXT]) + SITES_PER_CALL, len(worker.todo))
             result = insert(mesh, worker.todo, state, worker.scratch, self.scale, worker.work)
+            if result == OCCUPIED and self.equal is not None:
+                site = int(worker.todo[state[State.NEXT]])
+                self.equal.append((site, self._same_place(site, int(state[State.LAST]))))
+                state[State.NEXT] += 1
+                continue
             if result in FAULTS:
                 raise InternalError(FAULTS[result])
             if result == NEEDS_SCRATCH:
@@ -167,6 +196,17 @@ class Team:
                 break
             if after_call is not None:
                 after_call()
+
+    def _same_place(self, site: int, t: int) -> int:
+        """The vertex of tetrahedron t that is where a site is."""
+        places = self.store.mesh.points
+        corners = [int(v) for v in vertices(self.store.mesh)[t] if v != INFINITE]
+        return next(v for v in corners if (places[v] == places[site]).all())
+
+    def mark_fresh(self) -> None:
+        """Mark slots that threads have taken and not used, for what goes over all slots."""
+        for worker in self.workers:
+            vertices(self.store.mesh)[worker.state[State.FRESH] : worker.state[State.FRESH_END], 0] = FREE
 
     def _stop(self) -> None:
         self.stopped = True

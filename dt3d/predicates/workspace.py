@@ -46,14 +46,31 @@ def scaled(points: npt.ArrayLike) -> np.ndarray:
     [[0.0, 0.375], [0.5, 0.0625]]
     """
     points = np.asarray(points, np.float64)
-    greatest = max(points.max(initial=0), -points.min(initial=0))
-    exponent = int(np.frexp(greatest)[1])
+    smaller = scaled_by(points, _exponent(points))
+    return points if smaller is None else smaller
+
+
+def scale_exponent(points: np.ndarray) -> int:
+    """The e with which `scaled` returns points / 2^e; 0 where that is the points themselves."""
+    exponent = _exponent(points)
+    return exponent if scaled_by(points, exponent) is not None else 0
+
+
+def scaled_by(points: np.ndarray, exponent: int) -> np.ndarray | None:
+    """Return points / 2^exponent; None where that is not exact."""
     if not exponent:
         return points
     if abs(exponent) > FACTORS:
-        smaller = np.ldexp(points, -exponent)
+        with np.errstate(over="ignore"):
+            smaller = np.ldexp(points, -exponent)
         exact = np.ldexp(smaller, exponent) == points
     else:  # the same, and ten times faster
-        smaller = points * 2.0**-exponent
+        with np.errstate(over="ignore"):
+            smaller = points * 2.0**-exponent
         exact = smaller * 2.0**exponent == points
-    return smaller if exact.all() else points
+    return smaller if exact.all() else None
+
+
+def _exponent(points: np.ndarray) -> int:
+    greatest = max(points.max(initial=0), -points.min(initial=0))
+    return int(np.frexp(greatest)[1])

@@ -156,7 +156,6 @@ def test_scipys_keywords(d):
     np.testing.assert_array_equal(dt3d.Delaunay(points, False, False, None).simplices, plain.simplices)
     for args, message in [
         ((True,), "furthest_site=True is not served: .*scipy.spatial.Delaunay serves it"),
-        ((False, True), "incremental=True is not served yet: "),
         ((False, False, "Qbb QJ"), "'Qbb QJ': QJ is not served; it moves the sites at random"),
         ((False, False, "Qbb Q77"), "Q77 is not served; those that change nothing here are Pp Q11"),
         (("insertion",), "furthest_site must be True or False, got 'insertion'"),

@@ -26,6 +26,7 @@ RUN = [
     "TestVertexNeighborVertices.test_rectangle",
     "TestVertexNeighborVertices.test_complicated",
     "TestConvexHull.test_hull_consistency_tri",
+    "TestDelaunay.test_incremental",
     "TestUtilities.test_more_barycentric_transforms",
     "TestUtilities.test_plane_distance",
     "test_find_simplex_ndim_err",
@@ -36,7 +37,6 @@ IMPOSSIBLE = {
     "TestDelaunay.test_2d_square": "expects the order of rows and vertices that Qhull gives",
     "TestDelaunay.test_joggle": "option QJ moves the sites, which is refused",
     "TestDelaunay.test_furthest_site": "furthest_site=True is refused",
-    "TestDelaunay.test_incremental": "incremental=True is refused",
     "TestUtilities.test_find_simplex": "expects the order of rows that Qhull gives",
     "TestUtilities.test_convex_hull": "expects the order of rows and vertices that Qhull gives",
     "TestUtilities.test_degenerate_barycentric_transforms": "allows 22 slivers with NaN, there are more",
@@ -46,6 +46,8 @@ ONLY_AS_SCIPY = {
     "TestDelaunay.test_nd_simplex": "sorts the simplices in place, and ours are read-only",
     "test_gh_21286": "expects an IndexError for wrong shapes, ours is a ValueError",
 }
+# what SciPy's class gets is finished
+FINISHED = ("to_scipy", "TestDelaunay.test_incremental")
 SLOW = {"TestUtilities.test_more_barycentric_transforms"}
 CLASSES = ["dt3d.Delaunay", "to_scipy"]
 
@@ -93,7 +95,7 @@ def test_every_test_of_delaunay_is_run_or_impossible(suite):
         pytest.param(name, kind, marks=[pytest.mark.slow] if name in SLOW else [])
         for name in RUN
         for kind in CLASSES
-        if kind == "to_scipy" or name not in ONLY_AS_SCIPY
+        if (kind == "to_scipy" or name not in ONLY_AS_SCIPY) and (kind, name) != FINISHED
     ],
 )
 def test_scipys(name, kind, suite, monkeypatch):
@@ -114,6 +116,10 @@ def test_scipys(name, kind, suite, monkeypatch):
     if name == "TestConvexHull.test_hull_consistency_tri":
         for data in suite.DATASETS:
             run(data)
+    elif name == "TestDelaunay.test_incremental":
+        for data, (_, options) in suite.INCREMENTAL_DATASETS.items():
+            if options is None:  # the others move the sites
+                run(data)
     elif name == "test_gh_20623":
         run(delaunay)
     else:

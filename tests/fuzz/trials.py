@@ -49,6 +49,7 @@ def trial(points: np.ndarray, seed: int, thorough: bool = True) -> list[str]:
     ways = ["default", "verify", "find_simplex"]
     if thorough:
         _check_other_order(points, tri, rng)
+        ways += _check_history(points, tri, rng)
         ways += ["other order", *(_space(tri, rng) if points.shape[1] == 3 else _plane(tri, rng))]
     return ways
 
@@ -72,6 +73,25 @@ def _check_other_order(points: np.ndarray, tri: Any, rng: Rng) -> None:
     other = _class(points)(moved, seed=int(rng.integers(2**31)))
     _require_equal(moved, _simplices(other), tri, "another order of the sites")
     oracle.check_duplicates(moved, other.duplicates)
+
+
+def _check_history(points: np.ndarray, tri: Any, rng: Rng) -> list[str]:
+    """Sites that come in several steps give the same triangulation, after each step."""
+    k = int(rng.integers(1, len(points) + 1))
+    try:
+        grown = dt3d.Delaunay(points[:k], incremental=True, seed=int(rng.integers(2**31)))
+    except dt3d.DegenerateInputError:
+        return []  # the first of them lie on a plane, a line or a point
+    while k < len(points):
+        step = min(len(points) - k, int(rng.choice([1, 2, 7, 50])))
+        grown.add_points(points[k : k + step])
+        k += step
+        if rng.random() < 0.2:
+            oracle.check(points[:k], grown.simplices, grown.neighbors, grown.duplicates)
+    _require_equal(points, grown.simplices, tri, "a triangulation that grew")
+    require(np.array_equal(grown.duplicates, tri.duplicates), "one that grew has the same duplicates")
+    require(bool(grown.verify()), f"the proof of one that grew holds: {grown.verify()}")
+    return ["grown"]
 
 
 @contextlib.contextmanager

@@ -1,0 +1,98 @@
+"""What a triangulation with ``incremental=True`` has beside its arrays: sites, and a store that goes on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._input import MOST_SITES, scale_exponent, scaled_by
+from ._stats import InsertionStatistics
+
+if TYPE_CHECKING:
+    from .insertion.growing import Growing
+
+# with more new sites than this part of those that are there, all threads do it again from scratch
+LARGEST_PART = 0.5
+
+
+class Living:
+    """The sites of a triangulation that takes more.
+
+    The store is made when the arrays are asked for, and made again where it cannot go on: where coordinates
+    are larger than it was made for, where there are many new sites, and in the plane always.
+
+    Parameters
+    ----------
+    points : float64 (n, d)
+        The first sites, checked.
+    seed : int
+        A word, for the order of insertion.
+    threads : int, optional
+    """
+
+    def __init__(self, points: np.ndarray, seed: int, threads: int | None) -> None:
+        self.seed, self.threads = seed, threads
+        self._room = points  # its first rows are the sites; rows that were written stay as they are
+        self._count = len(points)
+        self._store: Growing | None = None
+        self._exponent = 0
+
+    @property
+    def points(self) -> np.ndarray:
+        """All sites so far, float64 (n, d)."""
+        return self._room[: self._count]
+
+    def add(self, points: np.ndarray, restart: bool) -> None:
+        """Add sites, float64 (k, d), checked, to the store if it can go on.
+
+        Raises
+        ------
+        ValueError
+            If there are too many then.
+        """
+        count = self._count + len(points)
+        if count > MOST_SITES:
+            msg = (
+                f"at most 2^25 = {MOST_SITES} sites can be numbered, and these are {self._count} and "
+                f"{len(points)} more"
+            )
+            raise ValueError(msg)
+        store, self._store = self._store, None  # which is of no use if this is interrupted
+        if store is not None and not restart and len(points) <= LARGEST_PART * self._count:
+            sites = scaled_by(points, self._exponent)
+            if sites is not None and np.abs(sites).max(initial=0.0) <= store.reach:
+                store.add(sites)
+                self._store = store
+        if count > len(self._room):
+            room = np.empty((max(2 * self._count, count), points.shape[1]))
+            room[: self._count] = self.points
+            self._room = room
+        self._room[self._count : count] = points
+        self._count = count
+
+    def in_space(self) -> dict[str, object]:
+        """The results of all sites so far, in space.
+
+        Raises
+        ------
+        DegenerateInputError
+            If they span no volume.
+        MemoryError
+            If the system does not have the memory.
+        """
+        from .insertion.growing import Growing
+
+        if self._store is None:
+            self._exponent = scale_exponent(self.points)
+            sites = scaled_by(self.points, self._exponent)
+            assert sites is not None
+            self._store = Growing(sites, self.seed, self.threads)
+        simplices, neighbors = self._store.result()
+        return {
+            "simplices": simplices,
+            "neighbors": neighbors,
+            "duplicates": self._store.duplicates,
+            "iteration": np.ones(len(simplices), np.int32),
+            "stats": InsertionStatistics(**self._store.statistics()),
+        }
