@@ -33,7 +33,9 @@ class Living:
 
     def __init__(self, points: np.ndarray, seed: int, threads: int | None) -> None:
         self.seed, self.threads = seed, threads
-        self._room = points  # its first rows are the sites; rows that were written stay as they are
+        # its first rows are the sites; rows that were written stay as they are
+        self._room = np.empty((2 * len(points), points.shape[1]))
+        self._room[: len(points)] = points
         self._count = len(points)
         self._store: Growing | None = None
         self._exponent = 0

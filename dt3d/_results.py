@@ -53,8 +53,8 @@ class Result:
 
     def _keep(self, **results: object) -> None:
         """Set results, once they are what they will be; arrays become read-only."""
-        for name in self._derived:  # of other results, if there were any
-            self.__dict__.pop(name, None)
+        for name in self.__dict__.keys() & self._derived:  # of other results, if there were any
+            del self.__dict__[name]
         for name, value in results.items():
             self.__dict__[name] = frozen(value) if isinstance(value, np.ndarray) else value
 

@@ -19,11 +19,13 @@ from .._memory import require
 from ..ordering.along_curve import along_curve
 from ..ordering.brio import insertion_rounds
 from .driver import BYTES_PER_SITE, Result, compact, inserted
+from .hints import Hints
 from .store import BYTES_PER_SLOT
 from .worker import State
 
-SLOTS_PER_ADDED_SITE = 8  # tetrahedra and ghosts that the new sites add, on average, and freed slots
+BYTES_PER_ADDED_SITE = 8 * BYTES_PER_SLOT  # for its tetrahedra and ghosts, and for freed slots
 NOBODY = np.empty(0, np.int32)  # is left out of the rounds of new sites
+FIRST_OF_ONE = np.zeros(1, np.int64)
 
 
 class Growing:
@@ -60,6 +62,8 @@ class Growing:
         self._given = len(sites)
         self._original = [self._run.original]
         self._duplicates = [self._run.duplicates]
+        self._run.store.reserve(2 * len(sites))  # so that the first to be added wait for no copy
+        self._hints = Hints(self._run.store)
         self._lock = threading.Lock()
 
     @property
@@ -101,21 +105,24 @@ class Growing:
             msg = f"new sites have coordinates of up to {np.abs(sites).max()}, and {self.reach} is the most"
             raise InternalError(msg)
         k, store, team = len(sites), self._run.store, self._run.team
-        require(
-            f"{k} more sites",
-            BYTES_PER_SITE * k,
-            (BYTES_PER_SITE + SLOTS_PER_ADDED_SITE * BYTES_PER_SLOT) * k,
-        )
-        order = along_curve(sites)
+        if k == 0:
+            return
+        if k == 1:
+            order, start = FIRST_OF_ONE, self._hints.near(*sites[0].tolist())
+        else:
+            require(f"{k} more sites", BYTES_PER_SITE * k, (BYTES_PER_SITE + BYTES_PER_ADDED_SITE) * k)
+            order, start = along_curve(sites), -1
         rows = np.zeros((k, 4))
         rows[:, :3] = sites[order]
         begin = store.add_sites(rows.reshape(-1))
-        rounds, _ = insertion_rounds(k, self._seed, NOBODY)
-        equal = team.insert_added(np.uint32(begin) + rounds)
+        rounds = insertion_rounds(k, self._seed, NOBODY)[0] if k > 1 else FIRST_OF_ONE
+        equal = team.insert_added((begin + rounds).astype(np.uint32), start)
         self._original.append((self._given + order).astype(np.int32))
         self._given += k
         if equal:
             self._duplicates.append(self._pairs(equal))
+        elif k == 1:
+            self._hints.note(begin, *sites[0].tolist())
 
     def _pairs(self, equal: list[tuple[int, int]]) -> npt.NDArray[np.int32]:
         """Pairs of numbers, ascending, for pairs of rows: of equal sites the one of least number is used.

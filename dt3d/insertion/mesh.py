@@ -90,6 +90,11 @@ def neighbors(mesh: Mesh) -> npt.NDArray[np.uint32]:
     return mesh.tetrahedra.reshape(-1, 8)[:, 4:]
 
 
+def known_tetrahedron(mesh: Mesh, v: int) -> int:
+    """What `tetrahedron_of` gives to compiled code: a tetrahedron that has site v, -1 if none is known."""
+    return int(mesh.labels[8 * v + 7]) - 1
+
+
 def squared_radii(mesh: Mesh) -> npt.NDArray[np.float32]:
     """A view of the squared radii of all slots, (m, 2), rounded down and up."""
     return mesh.radii.reshape(-1, 8)[:, 6:]

@@ -47,6 +47,7 @@ class Store:
         self.assured = assured
         self.sites = sites
         self._room = sites  # its first words are ``sites``
+        self._mesh: Mesh | None = None
         self.tetrahedra = aligned(8 * slots, np.uint32)
         self.spheres = aligned(4 * slots, np.float64)
         self.capacity = slots
@@ -57,8 +58,10 @@ class Store:
 
     @property
     def mesh(self) -> Mesh:
-        """The arrays as they are now."""
-        return bundle(self.sites, self.tetrahedra, self.spheres)
+        """The arrays as they are now; rows of sites to come are among them."""
+        if self._mesh is None:
+            self._mesh = bundle(self._room, self.tetrahedra, self.spheres)
+        return self._mesh
 
     def take_block(self) -> tuple[int, int]:
         """A block of slots for one thread: begin and end, equal where memory ran out."""
@@ -80,10 +83,17 @@ class Store:
         """
         begin, end = len(self.sites), len(self.sites) + len(rows)
         if end > len(self._room):
-            self._room = _longer(self._room, begin, max(2 * begin, end))
+            self.reserve(max(2 * begin, end) // 4)
         self._room[begin:end] = rows
         self.sites = self._room[:end]
         return begin // 4
+
+    def reserve(self, sites: int) -> None:
+        """Room for so many sites; memory that is not written yet is not resident."""
+        n = len(self.sites)
+        self._room = _longer(self._room, n, 4 * sites)
+        self.sites = self._room[:n]
+        self._mesh = None
 
     def grow(self) -> None:
         """Twice the memory, or as much as can be named, with what is there; for when no thread inserts.
@@ -105,6 +115,7 @@ class Store:
             BYTES_PER_SLOT // 2 * (2 * capacity - self.capacity),
         )
         self.capacity = capacity
+        self._mesh = None
         self.tetrahedra = _longer(self.tetrahedra, 8 * self.used, 8 * capacity)
         self.spheres = _longer(self.spheres, 4 * self.used, 4 * capacity)
 

@@ -89,12 +89,13 @@ class Team:
             pending = self._insert_in_parts(pending, parts, number)
             self.inserted = done - len(pending)
             self.deferred += len(pending)
-        self._insert_alone(pending, done)
+        self._insert_alone(pending, done, partial(self._report, self.workers[:1]))
 
-    def insert_added(self, pending: npt.NDArray[np.uint32]) -> list[tuple[int, int]]:
+    def insert_added(self, pending: npt.NDArray[np.uint32], start: int = -1) -> list[tuple[int, int]]:
         """Insert sites that were added to the store, by one thread, in the order in which they come.
 
-        Returns pairs of those that are where another one is already, and that one.
+        The first walk begins at a tetrahedron, if one is given. Returns pairs of those that are where another
+        one is already, and that one.
 
         Raises
         ------
@@ -102,22 +103,27 @@ class Team:
             As `insert_round` does.
         """
         self.n = len(self.store.sites) // 4
-        self.workers[0].state[State.SITES] = self.n
+        state = self.workers[0].state
+        state[State.SITES] = self.n
+        if start >= 0:
+            state[State.LAST] = start
         found: list[tuple[int, int]] = []
         self.equal = found
-        self._insert_alone(pending, self.inserted + len(pending))
+        self._insert_alone(pending, self.inserted + len(pending), None)
         self.inserted -= len(found)
         self.equal = None
         return found
 
-    def _insert_alone(self, pending: npt.NDArray[np.uint32], done: int) -> None:
+    def _insert_alone(
+        self, pending: npt.NDArray[np.uint32], done: int, after_call: Callable[[], None] | None
+    ) -> None:
         """Insert sites by one thread; there are ``done`` of them then."""
         worker = self.workers[0]
         growths = 0
         while len(pending):
             before = len(pending)
             worker.assign(pending, 0, self.n)
-            self._insert(worker, after_call=partial(self._report, [worker]))
+            self._insert(worker, after_call)
             if worker.state[State.DEFERRED]:
                 # it owns all sites, and more memory would not help
                 msg = f"a thread that is alone defers {worker.state[State.DEFERRED]} sites to others"
