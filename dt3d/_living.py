@@ -37,6 +37,7 @@ class Living:
         self._room = np.empty((2 * len(points), points.shape[1]))
         self._room[: len(points)] = points
         self._count = len(points)
+        self.dimension = points.shape[1]
         self._store: Growing | None = None
         self._exponent = 0
 
@@ -63,7 +64,7 @@ class Living:
         store, self._store = self._store, None  # which is of no use if this is interrupted
         if store is not None and not restart and len(points) <= LARGEST_PART * self._count:
             sites = scaled_by(points, self._exponent)
-            if sites is not None and np.abs(sites).max(initial=0.0) <= store.reach:
+            if sites is not None and store.takes(sites):
                 store.add(sites)
                 self._store = store
         if count > len(self._room):

@@ -5,7 +5,7 @@ Here d is the dimension, 2 or 3, n the number of sites and m that of simplices.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, Unpack
+from typing import TYPE_CHECKING, ClassVar, NoReturn, Self, Unpack, cast
 
 import numpy as np
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import pyvista
     from matplotlib.axes import Axes
 
+    from ._living import Living
     from ._space_plot import SpaceLook
 
 SHARED: Names = ("points", "simplices", "neighbors", "duplicates")
@@ -292,7 +293,10 @@ class Triangulation(Result):
         def __getattr__(self, name: str) -> object:
             """Results that are not made yet; of an attribute of the other dimension why it is not there."""
             if "_living" in self.__dict__ and name in (*self._arrays_of(self.__dict__), "stats"):
-                self._finish()
+                if name == "points":
+                    self._keep(points=self._living.points)
+                else:
+                    self._finish()
                 return self.__dict__[name]
             return self._only_elsewhere(name)
 
@@ -313,6 +317,7 @@ class Triangulation(Result):
     def _finish(self) -> None:
         """Make the results that sites added since have left open."""
         if "_living" in self.__dict__ and "simplices" not in self.__dict__:
+            self._keep(points=self.__dict__["_living"].points)
             self._catch_up()
 
     def _catch_up(self) -> None:
@@ -349,6 +354,8 @@ class Triangulation(Result):
 
 def _dimension(state: dict[str, object]) -> int:
     """2 or 3, as many as the points have coordinates; without points by what only the plane has."""
+    if "_living" in state:
+        return cast("Living", state["_living"]).dimension
     points = state.get("points")
     if isinstance(points, np.ndarray) and points.ndim == 2:
         return 2 if points.shape[1] == 2 else 3

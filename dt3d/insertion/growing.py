@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._errors import InternalError
 from .._memory import require
 from ..ordering.along_curve import along_curve
 from ..ordering.brio import insertion_rounds
@@ -25,7 +24,6 @@ from .worker import State
 
 BYTES_PER_ADDED_SITE = 8 * BYTES_PER_SLOT  # for its tetrahedra and ghosts, and for freed slots
 NOBODY = np.empty(0, np.int32)  # is left out of the rounds of new sites
-FIRST_OF_ONE = np.zeros(1, np.int64)
 
 
 class Growing:
@@ -60,19 +58,16 @@ class Growing:
         self._run = inserted(sites, seed, threads, report)
         self._seed = seed
         self._given = len(sites)
-        self._original = [self._run.original]
+        self._scaled = self._run.team.scale.reach == 1.0
+        self._numbers = self._run.original  # of the site in each row; more rows may follow
         self._duplicates = [self._run.duplicates]
         self._run.store.reserve(2 * len(sites))  # so that the first to be added wait for no copy
         self._hints = Hints(self._run.store)
         self._lock = threading.Lock()
 
-    @property
-    def reach(self) -> float:
-        """The greatest coordinate that a new site may have, in magnitude; 0 where there may be none.
-
-        Bounds of errors are known for coordinates up to 1.
-        """
-        return 1.0 if self._run.team.scale.reach == 1.0 else 0.0
+    def takes(self, sites: npt.NDArray[np.float64]) -> bool:
+        """Whether sites can be added: bounds of errors are known for coordinates up to 1, in magnitude."""
+        return self._scaled and (not sites.size or (sites.max() <= 1.0 and sites.min() >= -1.0))
 
     def statistics(self) -> dict[str, Any]:
         """Counts of all insertions so far, and the seconds of the first sites' by phase."""
@@ -88,7 +83,7 @@ class Growing:
         }
 
     def add(self, sites: npt.NDArray[np.float64]) -> None:
-        """Add sites, float64 (k, 3), which get the numbers after those that are there.
+        """Add sites, float64 (k, 3), that it `takes`; they get the numbers after those that are there.
 
         After an exception the triangulation is of no more use.
 
@@ -98,56 +93,64 @@ class Growing:
             If the system does not have the memory.
         """
         with self._lock:
-            self._add(sites)
+            if len(sites) == 1:
+                self._add_one(*sites[0].tolist())
+            elif len(sites):
+                self._add_many(sites)
 
-    def _add(self, sites: npt.NDArray[np.float64]) -> None:
-        if not np.abs(sites).max(initial=0.0) <= self.reach:
-            msg = f"new sites have coordinates of up to {np.abs(sites).max()}, and {self.reach} is the most"
-            raise InternalError(msg)
-        k, store, team = len(sites), self._run.store, self._run.team
-        if k == 0:
-            return
-        if k == 1:
-            order, start = FIRST_OF_ONE, self._hints.near(*sites[0].tolist())
+    def _add_one(self, x: float, y: float, z: float) -> None:
+        store = self._run.store
+        cell = self._hints.cell(x, y, z)
+        row = store.add_sites(np.array([x, y, z, 0.0]))
+        self._number(row, self._given)
+        self._given += 1
+        equal = self._run.team.insert_added(np.array([row], np.uint32), self._hints.near(cell))
+        if equal:
+            self._duplicates.append(self._pairs(equal))
         else:
-            require(f"{k} more sites", BYTES_PER_SITE * k, (BYTES_PER_SITE + BYTES_PER_ADDED_SITE) * k)
-            order, start = along_curve(sites), -1
+            self._hints.note(cell, row)
+
+    def _add_many(self, sites: npt.NDArray[np.float64]) -> None:
+        k, store = len(sites), self._run.store
+        require(f"{k} more sites", BYTES_PER_SITE * k, (BYTES_PER_SITE + BYTES_PER_ADDED_SITE) * k)
+        order = along_curve(sites)
         rows = np.zeros((k, 4))
         rows[:, :3] = sites[order]
         begin = store.add_sites(rows.reshape(-1))
-        rounds = insertion_rounds(k, self._seed, NOBODY)[0] if k > 1 else FIRST_OF_ONE
-        equal = team.insert_added((begin + rounds).astype(np.uint32), start)
-        self._original.append((self._given + order).astype(np.int32))
+        self._number(begin, self._given + order)
         self._given += k
+        rounds, _ = insertion_rounds(k, self._seed, NOBODY)
+        equal = self._run.team.insert_added((begin + rounds).astype(np.uint32))
         if equal:
             self._duplicates.append(self._pairs(equal))
-        elif k == 1:
-            self._hints.note(begin, *sites[0].tolist())
+
+    def _number(self, begin: int, numbers: npt.NDArray[np.int64] | int) -> None:
+        """Let the rows from ``begin`` on have these numbers."""
+        end = begin + (1 if isinstance(numbers, int) else len(numbers))
+        if end > len(self._numbers):
+            longer = np.empty(2 * end, np.int32)
+            longer[:begin] = self._numbers[:begin]
+            self._numbers = longer
+        self._numbers[begin:end] = numbers
 
     def _pairs(self, equal: list[tuple[int, int]]) -> npt.NDArray[np.int32]:
         """Pairs of numbers, ascending, for pairs of rows: of equal sites the one of least number is used.
 
         Another one may have been inserted before it; they are in the same place, so they change their rows.
         """
-        number = self._rows()
+        number = self._numbers
         for row, used in equal:
             if number[row] < number[used]:
                 number[row], number[used] = number[used], number[row]
         pairs = np.array([(number[row], number[used]) for row, used in equal], np.int32)
         return pairs[np.argsort(pairs[:, 0])]
 
-    def _rows(self) -> npt.NDArray[np.int32]:
-        """The number of the site in each row."""
-        if len(self._original) > 1:
-            self._original = [np.concatenate(self._original)]
-        return self._original[0]
-
     def result(self) -> Result:
         """Simplices and neighbors as they are now: int32 (m, 4) each, new arrays."""
         with self._lock:
             team = self._run.team
             team.mark_fresh()
-            return compact(self._run.store, self._rows(), len(team.workers), _new)
+            return compact(self._run.store, self._numbers, len(team.workers), _new)
 
     @property
     def duplicates(self) -> npt.NDArray[np.int32]:

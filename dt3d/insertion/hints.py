@@ -28,16 +28,26 @@ class Hints:
         self._store = store
         self.made_for = 0
 
-    def near(self, x: float, y: float, z: float) -> int:
-        """A tetrahedron near a place, -1 where none is known."""
-        if len(self._store.sites) // 4 > LARGEST_PART * self.made_for:
+    def cell(self, x: float, y: float, z: float) -> int:
+        """The cell of a place, or the nearest one."""
+        if len(self._store.sites) > 4 * LARGEST_PART * self.made_for:
             self._make()
-        row = int(self._table[self._cell(x, y, z)])
+        side, (a, b, c), (p, q, r) = self._side, self._low, self._scale
+        i, j, k = int((x - a) * p), int((y - b) * q), int((z - c) * r)
+        last = side - 1
+        i = 0 if i < 0 else min(i, last)
+        j = 0 if j < 0 else min(j, last)
+        k = 0 if k < 0 else min(k, last)
+        return (i * side + j) * side + k
+
+    def near(self, cell: int) -> int:
+        """A tetrahedron near a cell, -1 where none is known."""
+        row = int(self._table[cell])
         return known_tetrahedron(self._store.mesh, row) if row >= 0 else -1
 
-    def note(self, row: int, x: float, y: float, z: float) -> None:
-        """Note a site."""
-        self._table[self._cell(x, y, z)] = row
+    def note(self, cell: int, row: int) -> None:
+        """Note the row of a site."""
+        self._table[cell] = row
 
     def _make(self) -> None:
         rows = self._store.sites.reshape(-1, 4)[:, :3]
@@ -56,9 +66,3 @@ class Hints:
             cells = cells * self._side + np.clip(place, 0, self._side - 1)
         self._table: npt.NDArray[np.int32] = np.full(self._side**3, -1, np.int32)
         self._table[cells] = np.arange(len(rows), dtype=np.int32)
-
-    def _cell(self, x: float, y: float, z: float) -> int:
-        cell, side = 0, self._side
-        for value, low, scale in zip((x, y, z), self._low, self._scale, strict=True):
-            cell = cell * side + min(max(int((value - low) * scale), 0), side - 1)
-        return cell

@@ -119,15 +119,19 @@ class Team:
     ) -> None:
         """Insert sites by one thread; there are ``done`` of them then."""
         worker = self.workers[0]
+        state = worker.state
         growths = 0
         while len(pending):
             before = len(pending)
             worker.assign(pending, 0, self.n)
             self._insert(worker, after_call)
-            if worker.state[State.DEFERRED]:
+            if state[State.DEFERRED]:
                 # it owns all sites, and more memory would not help
-                msg = f"a thread that is alone defers {worker.state[State.DEFERRED]} sites to others"
+                msg = f"a thread that is alone defers {state[State.DEFERRED]} sites to others"
                 raise InternalError(msg)
+            if state[State.NEXT] == before:  # all of them
+                self.inserted = done
+                return
             pending = worker.left
             self.inserted = done - len(pending)
             growths = growths + 1 if len(pending) == before else 0

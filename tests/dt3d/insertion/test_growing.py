@@ -3,9 +3,7 @@
 import threading
 
 import numpy as np
-import pytest
 
-import dt3d
 from dt3d.insertion import driver, store
 from dt3d.insertion.growing import Growing
 
@@ -59,12 +57,13 @@ def test_results_do_not_change_afterwards():
     np.testing.assert_array_equal(neighbors, kept[1])
 
 
-def test_coordinates_without_bounds_are_a_fault():
+def test_coordinates_without_bounds_are_not_taken():
     growing = Growing(RNG.random((100, 3)))
-    assert growing.reach == 1.0
-    with pytest.raises(dt3d.InternalError, match="have coordinates of up to 2.0, and 1.0 is the most"):
-        growing.add(np.full((1, 3), 2.0))
-    assert Growing(RNG.random((100, 3)) * 8).reach == 0.0
+    assert growing.takes(np.empty((0, 3)))
+    assert growing.takes(np.array([[1.0, -1.0, 0.0]]))
+    assert not growing.takes(np.array([[0.5, -1.5, 0.0]]))
+    assert not growing.takes(np.array([[0.5, 0.0, np.nextafter(1, 2)]]))
+    assert not Growing(RNG.random((100, 3)) * 8).takes(np.zeros((1, 3)))
 
 
 def test_threads_may_add_at_the_same_time():

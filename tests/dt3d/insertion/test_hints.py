@@ -22,7 +22,7 @@ def test_a_hint_is_a_tetrahedron_near_the_place():
     table = Hints(store)
     far, unknown = 0.0, 0
     for place in RNG.random((200, 3)):
-        t = table.near(*place.tolist())
+        t = table.near(table.cell(*place.tolist()))
         if t < 0:  # there is no site in the cell
             unknown += 1
             continue
@@ -39,13 +39,14 @@ def test_a_hint_is_a_tetrahedron_near_the_place():
 )
 def test_places_anywhere_have_a_cell(place):
     table = Hints(store_of(RNG.random((50, 3))))
-    assert table.near(*place) >= -1
+    assert 0 <= table.cell(*place) < table._side**3
 
 
 def test_flat_and_tiny_boxes_have_cells():
     flat = RNG.random((50, 3)) * [1, 1, 1e-310]
     for sites in (flat, RNG.random((50, 3)) * 1e-310):
-        assert Hints(store_of(sites)).near(*sites[3].tolist()) >= -1
+        table = Hints(store_of(sites))
+        assert table.near(table.cell(*sites[3].tolist())) >= 0
 
 
 def test_the_table_is_made_again_when_there_are_many_more_sites(monkeypatch):
