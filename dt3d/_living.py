@@ -37,7 +37,7 @@ class Living:
         self._room = np.empty((2 * len(points), points.shape[1]))
         self._room[: len(points)] = points
         self._count = len(points)
-        self.dimension = points.shape[1]
+        self.dimension: int = points.shape[1]
         self._store: Growing | None = None
         self._exponent = 0
 

@@ -355,7 +355,7 @@ class Triangulation(Result):
 def _dimension(state: dict[str, object]) -> int:
     """2 or 3, as many as the points have coordinates; without points by what only the plane has."""
     if "_living" in state:
-        return cast("Living", state["_living"]).dimension
+        return int(cast("Living", state["_living"]).dimension)
     points = state.get("points")
     if isinstance(points, np.ndarray) and points.ndim == 2:
         return 2 if points.shape[1] == 2 else 3

@@ -1,7 +1,7 @@
 """A triangulation in space that takes more sites: the store goes on.
 
-New sites get the rows after the old ones, in rounds along the curve through them, so that each walk is short.
-One thread inserts them: their rows say nothing of where they lie among the old ones, and threads own sites by
+New sites get the rows after the old ones, in rounds along the curve through them, each with a hint where its
+walk begins. One thread inserts them: their rows say nothing of where they lie among the old ones, and threads own sites by
 their rows. The triangulation is unique, so it is the one of all sites from scratch.
 """
 
@@ -19,6 +19,7 @@ from ..ordering.along_curve import along_curve
 from ..ordering.brio import insertion_rounds
 from .driver import BYTES_PER_SITE, Result, compact, inserted
 from .hints import Hints
+from .mesh import HINT, with_hints
 from .store import BYTES_PER_SLOT
 from .worker import State
 
@@ -101,10 +102,14 @@ class Growing:
     def _add_one(self, x: float, y: float, z: float) -> None:
         store = self._run.store
         cell = self._hints.cell(x, y, z)
-        row = store.add_sites(np.array([x, y, z, 0.0]))
+        one = np.array([x, y, z, 0.0])
+        near = self._hints.near_one(cell)
+        if near >= 0:
+            one.view(np.uint32)[7] = HINT + near
+        row = store.add_sites(one)
         self._number(row, self._given)
         self._given += 1
-        equal = self._run.team.insert_added(np.array([row], np.uint32), self._hints.near(cell))
+        equal = self._run.team.insert_added(np.array([row], np.uint32))
         if equal:
             self._duplicates.append(self._pairs(equal))
         else:
@@ -114,15 +119,18 @@ class Growing:
         k, store = len(sites), self._run.store
         require(f"{k} more sites", BYTES_PER_SITE * k, (BYTES_PER_SITE + BYTES_PER_ADDED_SITE) * k)
         order = along_curve(sites)
-        rows = np.zeros((k, 4))
-        rows[:, :3] = sites[order]
-        begin = store.add_sites(rows.reshape(-1))
+        sites = sites[order]
+        cells = self._hints.cells(sites)
+        begin = store.add_sites(with_hints(sites, self._hints.near(cells)))
         self._number(begin, self._given + order)
         self._given += k
         rounds, _ = insertion_rounds(k, self._seed, NOBODY)
         equal = self._run.team.insert_added((begin + rounds).astype(np.uint32))
         if equal:
             self._duplicates.append(self._pairs(equal))
+        is_vertex = np.ones(k, bool)
+        is_vertex[[row - begin for row, _ in equal]] = False
+        self._hints.note(cells[is_vertex], begin + np.flatnonzero(is_vertex))
 
     def _number(self, begin: int, numbers: npt.NDArray[np.int64] | int) -> None:
         """Let the rows from ``begin`` on have these numbers."""

@@ -17,7 +17,7 @@ import numba
 from .._numba.kernel_cache import cached_njit
 from .._numba.unowned import unowned
 from .cavity import NO_ROOM, search, unmark_cavity
-from .mesh import INFINITE, site_at_hand, vertex
+from .mesh import INFINITE, site_at_hand, start_for, vertex
 from .ownership import Part
 from .spheres import flat, round_spheres
 from .star import link, make_tetrahedra, note_tetrahedra, number_vertices
@@ -53,7 +53,7 @@ def insert(mesh, todo, state, scratch, scale, w):
     result = DONE
     while following < stop:
         site = site_at_hand(mesh, numba.int64(todo[following]))
-        start = last
+        start = start_for(mesh, site.v, last)
         for attempt in range(2):  # one call, which is inlined once
             last, found, steps = walk(mesh, start, site, part, scale.slack, w)
             walked += steps

@@ -36,6 +36,8 @@ INFINITE = 0xFFFFFFFF
 FREE = 0xFFFFFFFE
 MOST_SLOTS = 2**30  # facets are named by 32 bits
 
+HINT = 1 << 31  # and a site near it, in the place of the tetrahedron of a site that is not inserted yet
+
 CACHE_LINE = 64  # bytes
 
 accessor = cached_njit(inline="always", error_model="numpy")
@@ -90,9 +92,18 @@ def neighbors(mesh: Mesh) -> npt.NDArray[np.uint32]:
     return mesh.tetrahedra.reshape(-1, 8)[:, 4:]
 
 
-def known_tetrahedron(mesh: Mesh, v: int) -> int:
-    """What `tetrahedron_of` gives to compiled code: a tetrahedron that has site v, -1 if none is known."""
-    return int(mesh.labels[8 * v + 7]) - 1
+def with_hints(sites: npt.NDArray[np.float64], near: npt.NDArray[np.int32]) -> npt.NDArray[np.float64]:
+    """Rows for sites, float64 (k, 3), with a site near each that is inserted; -1 for none."""
+    rows = np.zeros((len(sites), 4))
+    rows[:, :3] = sites
+    rows.view(np.uint32)[:, 7] = np.where(near >= 0, near.astype(np.int64) + HINT, 0)
+    return rows.reshape(-1)
+
+
+def inserted_rows(sites: npt.NDArray[np.float64], step: int) -> npt.NDArray[np.int64]:
+    """Those of each ``step``-th row of sites, float64 (4 n,), that are known to be vertices."""
+    words = sites.view(np.uint32)[7 :: 8 * step]
+    return step * np.flatnonzero((words > 0) & (words < HINT))
 
 
 def squared_radii(mesh: Mesh) -> npt.NDArray[np.float32]:
@@ -248,6 +259,16 @@ def set_label(mesh, v, number):
 def tetrahedron_of(mesh, v):
     """A tetrahedron that has site v, -1 as long as none is known."""
     return numba.int64(mesh.labels[8 * v + 7]) - 1
+
+
+@accessor
+def start_for(mesh, v, last):
+    """Where the walk to site v begins: at a tetrahedron of the site that its hint names, else at ``last``."""
+    start = last
+    word = numba.int64(mesh.labels[8 * v + 7])
+    if word >= HINT:
+        start = tetrahedron_of(mesh, word - HINT)
+    return start
 
 
 @accessor

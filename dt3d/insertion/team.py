@@ -91,11 +91,10 @@ class Team:
             self.deferred += len(pending)
         self._insert_alone(pending, done, partial(self._report, self.workers[:1]))
 
-    def insert_added(self, pending: npt.NDArray[np.uint32], start: int = -1) -> list[tuple[int, int]]:
+    def insert_added(self, pending: npt.NDArray[np.uint32]) -> list[tuple[int, int]]:
         """Insert sites that were added to the store, by one thread, in the order in which they come.
 
-        The first walk begins at a tetrahedron, if one is given. Returns pairs of those that are where another
-        one is already, and that one.
+        Returns pairs of those that are where another one is already, and that one.
 
         Raises
         ------
@@ -103,10 +102,7 @@ class Team:
             As `insert_round` does.
         """
         self.n = len(self.store.sites) // 4
-        state = self.workers[0].state
-        state[State.SITES] = self.n
-        if start >= 0:
-            state[State.LAST] = start
+        self.workers[0].state[State.SITES] = self.n
         found: list[tuple[int, int]] = []
         self.equal = found
         self._insert_alone(pending, self.inserted + len(pending), None)

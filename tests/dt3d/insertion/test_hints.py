@@ -6,7 +6,6 @@ import pytest
 from dt3d.insertion import hints
 from dt3d.insertion.growing import Growing
 from dt3d.insertion.hints import Hints
-from dt3d.insertion.mesh import vertices
 from dt3d.insertion.worker import State
 
 RNG = np.random.default_rng(3)
@@ -16,22 +15,29 @@ def store_of(sites):
     return Growing(sites)._run.store
 
 
-def test_a_hint_is_a_tetrahedron_near_the_place():
+def test_a_hint_is_a_site_near_the_place():
     sites = RNG.random((5000, 3))
     store = store_of(sites)
     table = Hints(store)
-    far, unknown = 0.0, 0
-    for place in RNG.random((200, 3)):
-        t = table.near(table.cell(*place.tolist()))
-        if t < 0:  # there is no site in the cell
-            unknown += 1
-            continue
-        corners = vertices(store.mesh)[t].astype(np.int64)
-        corners = corners[corners < len(sites)]
-        distance = np.linalg.norm(store.mesh.points[corners] - place, axis=1).min()
-        far = max(far, distance)
-    assert unknown < 12
-    assert far < 3.5 * table._side**-1  # within a cell's diagonal and a tetrahedron
+    places = RNG.random((200, 3))
+    cells = table.cells(places)
+    assert cells.tolist() == [table.cell(*place.tolist()) for place in places]
+    near = table.near(cells)
+    assert near.tolist() == [table.near_one(int(cell)) for cell in cells]
+    known = near >= 0
+    assert known.sum() > 180
+    far = np.linalg.norm(store.mesh.points[near[known]] - places[known], axis=1).max()
+    assert far <= np.sqrt(3) / table._side
+
+
+def test_sites_that_are_no_vertices_are_no_hints():
+    sites = RNG.random((300, 3))
+    growing = Growing(sites)
+    growing.add(np.repeat(sites[:50], 2, axis=0))
+    growing.add(sites[60:61])
+    table = Hints(growing._run.store)
+    cells = table.cells(sites)
+    assert table.near(cells).max() < 300
 
 
 @pytest.mark.parametrize(
@@ -46,7 +52,7 @@ def test_flat_and_tiny_boxes_have_cells():
     flat = RNG.random((50, 3)) * [1, 1, 1e-310]
     for sites in (flat, RNG.random((50, 3)) * 1e-310):
         table = Hints(store_of(sites))
-        assert table.near(table.cell(*sites[3].tolist())) >= 0
+        assert table.near_one(table.cell(*sites[3].tolist())) >= 0
 
 
 def test_the_table_is_made_again_when_there_are_many_more_sites(monkeypatch):
