@@ -1,8 +1,8 @@
 """A triangulation in space that takes more sites: the store goes on.
 
-New sites get the rows after the old ones, in rounds along the curve through them, each with a hint where its
-walk begins. One thread inserts them: their rows say nothing of where they lie among the old ones, and threads own sites by
-their rows. The triangulation is unique, so it is the one of all sites from scratch.
+New sites get the rows after the old ones. They are inserted in rounds along the curve through them, each from
+where a hint in its row says. One thread does: rows say nothing of where new sites lie among the old ones, and
+threads own sites by their rows. The triangulation is unique, so it is the one of all sites from scratch.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ class Hints:
         rows = inserted_rows(self._store.sites, max(1, self.made_for // (SAMPLE * MOST_CELLS_PER_AXIS**3)))
         places = self._store.sites.reshape(-1, 4)[rows, :3]
         self._side = int(min(MOST_CELLS_PER_AXIS, max(1, (self.made_for / SITES_PER_CELL) ** (1 / 3))))
-        low, high = places.min(axis=0), places.max(axis=0)
+        low, high = places.min(axis=0, initial=1.0), places.max(axis=0, initial=-1.0)
         with np.errstate(over="ignore"):
             # flat boxes have one layer of cells
             scale = np.where(high > low, self._side / np.where(high > low, high - low, 1.0), 0.0)

@@ -73,6 +73,15 @@ def test_several_steps_at_once_and_one_site_at_a_time():
     assert_as_from_scratch(tri, points)
 
 
+@pytest.mark.parametrize("d", [2, 3])
+def test_from_a_simplex_on(d):
+    points = np.vstack([np.eye(d + 1, d), RNG.integers(-3, 4, (20, d))])
+    tri = dt3d.Delaunay(points[: d + 1], incremental=True)
+    for k in range(d + 1, len(points)):
+        tri.add_points(points[k : k + 1])
+        assert_as_from_scratch(tri, points[: k + 1])
+
+
 def test_large_sets_by_threads_go_on():
     points = RNG.random((40_000, 3))
     tri = dt3d.Delaunay(points[:30_000], incremental=True, threads=2)

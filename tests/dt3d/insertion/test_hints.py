@@ -48,6 +48,14 @@ def test_places_anywhere_have_a_cell(place):
     assert 0 <= table.cell(*place) < table._side**3
 
 
+def test_a_tetrahedron_alone_has_no_hints():
+    table = Hints(store_of(np.eye(4, 3)))
+    cell = table.cell(0.2, 0.2, 0.2)
+    assert table.near_one(cell) == -1
+    table.note(cell, 3)
+    assert table.near_one(cell) == 3
+
+
 def test_flat_and_tiny_boxes_have_cells():
     flat = RNG.random((50, 3)) * [1, 1, 1e-310]
     for sites in (flat, RNG.random((50, 3)) * 1e-310):
