@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,8 +20,9 @@ LARGEST_PART = 0.5
 class Living:
     """The sites of a triangulation that takes more.
 
-    The store is made when the arrays are asked for, and made again where it cannot go on: where coordinates
-    are larger than it was made for, where there are many new sites, and in the plane always.
+    Whoever adds sites or makes the results holds the lock. The store is made when the arrays are asked for, and
+    made again where it cannot go on: where coordinates are larger than it was made for, where there are many
+    new sites, and in the plane always.
 
     Parameters
     ----------
@@ -40,6 +42,7 @@ class Living:
         self.dimension: int = points.shape[1]
         self._store: Growing | None = None
         self._exponent = 0
+        self.lock = threading.RLock()
 
     @property
     def points(self) -> np.ndarray:
@@ -61,18 +64,21 @@ class Living:
                 f"{len(points)} more"
             )
             raise ValueError(msg)
-        store, self._store = self._store, None  # which is of no use if this is interrupted
-        if store is not None and not restart and len(points) <= LARGEST_PART * self._count:
-            sites = scaled_by(points, self._exponent)
-            if sites is not None and store.takes(sites):
-                store.add(sites)
-                self._store = store
         if count > len(self._room):
             room = np.empty((max(2 * self._count, count), points.shape[1]))
             room[: self._count] = self.points
             self._room = room
+        store, self._store = self._store, None  # which is of no use if this is interrupted
+        goes_on = False
+        if store is not None and not restart and len(points) <= LARGEST_PART * self._count:
+            sites = scaled_by(points, self._exponent)
+            if sites is not None and store.takes(sites):
+                store.add(sites)
+                goes_on = True
         self._room[self._count : count] = points
         self._count = count
+        if goes_on:
+            self._store = store
 
     def in_space(self) -> dict[str, object]:
         """The results of all sites so far, in space.
@@ -93,6 +99,7 @@ class Living:
             self._store = Growing(sites, self.seed, self.threads)
         simplices, neighbors = self._store.result()
         return {
+            "points": self.points,
             "simplices": simplices,
             "neighbors": neighbors,
             "duplicates": self._store.duplicates,

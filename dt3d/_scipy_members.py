@@ -398,11 +398,13 @@ class SciPyMembers(Geometry):
         if not isinstance(restart, bool | np.bool_):
             msg = f"restart must be True or False, got {restart!r}"
             raise ValueError(msg)
-        living.add(check_more_points(points, living.dimension), bool(restart))
-        if "points" in self.__dict__:
-            for name in (*self._arrays_of(self.__dict__), "stats"):
-                self.__dict__.pop(name, None)
-            self._keep()
+        more = check_more_points(points, living.dimension)
+        with living.lock:
+            living.add(more, bool(restart))
+            if "points" in self.__dict__:
+                for name in (*self._arrays_of(self.__dict__), "stats"):
+                    self.__dict__.pop(name, None)
+                self._keep()
 
     def close(self) -> None:
         """End an incremental triangulation: no sites can be added, and its store is given up.

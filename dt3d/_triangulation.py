@@ -293,11 +293,9 @@ class Triangulation(Result):
         def __getattr__(self, name: str) -> object:
             """Results that are not made yet; of an attribute of the other dimension why it is not there."""
             if "_living" in self.__dict__ and name in (*self._arrays_of(self.__dict__), "stats"):
-                if name == "points":
-                    self._keep(points=self._living.points)
-                else:
+                with self._living.lock:  # so that it is still there
                     self._finish()
-                return self.__dict__[name]
+                    return self.__dict__[name]
             return self._only_elsewhere(name)
 
     def __getstate__(self) -> dict[str, object]:
@@ -316,9 +314,11 @@ class Triangulation(Result):
 
     def _finish(self) -> None:
         """Make the results that sites added since have left open."""
-        if "_living" in self.__dict__ and "simplices" not in self.__dict__:
-            self._keep(points=self.__dict__["_living"].points)
-            self._catch_up()
+        living = self.__dict__.get("_living")
+        if living is not None:
+            with living.lock:
+                if "simplices" not in self.__dict__:
+                    self._catch_up()
 
     def _catch_up(self) -> None:
         """Make the results of all sites so far, where sites can be added."""

@@ -253,7 +253,7 @@ class Delaunay(SciPyMembers):
             raise ValueError(msg)
         if sites.shape[1] == 2:
             check_of_plane("auto", options)
-        self._keep(points=sites, _exact=True)
+        self._keep(_exact=True)
         self.__dict__["_living"] = Living(sites, word_of(seed), threads)
         try:
             self._catch_up()
@@ -261,8 +261,8 @@ class Delaunay(SciPyMembers):
             raise advised(error, points) from None
 
     def _catch_up(self) -> None:
-        living = self.__dict__["_living"]
-        if self.ndim == 2:
+        living: Living = self.__dict__["_living"]
+        if living.dimension == 2:
             self._insert_in_plane(living.points, living.seed, living.threads, time.perf_counter())
         else:
             self._keep(**living.in_space())

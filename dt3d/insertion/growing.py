@@ -7,7 +7,6 @@ threads own sites by their rows. The triangulation is unique, so it is the one o
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -28,7 +27,7 @@ NOBODY = np.empty(0, np.int32)  # is left out of the rounds of new sites
 
 
 class Growing:
-    """Sites of one triangulation, to which others are added.
+    """Sites of one triangulation, to which others are added; by one thread at a time.
 
     Parameters
     ----------
@@ -64,7 +63,6 @@ class Growing:
         self._duplicates = [self._run.duplicates]
         self._run.store.reserve(2 * len(sites))  # so that the first to be added wait for no copy
         self._hints = Hints(self._run.store)
-        self._lock = threading.Lock()
 
     def takes(self, sites: npt.NDArray[np.float64]) -> bool:
         """Whether sites can be added: bounds of errors are known for coordinates up to 1, in magnitude."""
@@ -93,11 +91,10 @@ class Growing:
         MemoryError
             If the system does not have the memory.
         """
-        with self._lock:
-            if len(sites) == 1:
-                self._add_one(*sites[0].tolist())
-            elif len(sites):
-                self._add_many(sites)
+        if len(sites) == 1:
+            self._add_one(*sites[0].tolist())
+        elif len(sites):
+            self._add_many(sites)
 
     def _add_one(self, x: float, y: float, z: float) -> None:
         store = self._run.store
@@ -155,10 +152,9 @@ class Growing:
 
     def result(self) -> Result:
         """Simplices and neighbors as they are now: int32 (m, 4) each, new arrays."""
-        with self._lock:
-            team = self._run.team
-            team.mark_fresh()
-            return compact(self._run.store, self._numbers, len(team.workers), _new)
+        team = self._run.team
+        team.mark_fresh()
+        return compact(self._run.store, self._numbers, len(team.workers), _new)
 
     @property
     def duplicates(self) -> npt.NDArray[np.int32]:

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import threading
 
 import numpy as np
 import pytest
@@ -256,3 +257,44 @@ def test_only_insertion_goes_on(options):
 def test_sites_on_a_plane_are_refused_at_first():
     with pytest.raises(dt3d.DegenerateInputError):
         dt3d.Delaunay(RNG.random((20, 3)) * [1, 1, 0], incremental=True)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_threads_may_add_and_look_at_the_same_time(d):
+    points = RNG.random((400, d))
+    tri = dt3d.Delaunay(points[:200], incremental=True)
+    wrong = []
+
+    def add(k):
+        for i in range(200 + k, 400, 3):
+            tri.add_points(points[i : i + 1])
+
+    def look():
+        for _ in range(60):
+            simplices = tri.simplices
+            if not len(simplices) or simplices.max() >= 400:
+                wrong.append(simplices)
+
+    threads = [threading.Thread(target=add, args=(k,)) for k in range(3)] + [threading.Thread(target=look)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+    assert tri.npoints == 400
+    np.testing.assert_array_equal(in_order(tri.points), in_order(points))
+    assert_as_from_scratch(tri, tri.points)
+
+
+def test_no_memory_for_more_sites_changes_nothing(monkeypatch):
+    points = RNG.random((60, 3))
+    tri = dt3d.Delaunay(points[:20], incremental=True)
+
+    def refuse(*_):
+        raise MemoryError
+
+    with monkeypatch.context() as patch:
+        patch.setattr(_living.np, "empty", refuse)
+        with pytest.raises(MemoryError):
+            tri.add_points(points[20:])
+    assert_as_from_scratch(tri, points[:20])

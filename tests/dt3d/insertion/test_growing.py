@@ -1,7 +1,5 @@
 """A store that goes on: rows, numbers of sites, equal ones, memory."""
 
-import threading
-
 import numpy as np
 
 from dt3d.insertion import driver, store
@@ -64,19 +62,3 @@ def test_coordinates_without_bounds_are_not_taken():
     assert not growing.takes(np.array([[0.5, -1.5, 0.0]]))
     assert not growing.takes(np.array([[0.5, 0.0, np.nextafter(1, 2)]]))
     assert not Growing(RNG.random((100, 3)) * 8).takes(np.zeros((1, 3)))
-
-
-def test_threads_may_add_at_the_same_time():
-    points = RNG.random((400, 3))
-    growing = Growing(points[:200])
-
-    def add(k):
-        for i in range(k, 200, 4):
-            growing.add(points[200 + i : 201 + i])
-
-    threads = [threading.Thread(target=add, args=(k,)) for k in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(growing.result()[0]) == len(driver.triangulate(points).simplices)
