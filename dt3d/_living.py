@@ -20,7 +20,7 @@ LARGEST_PART = 0.5
 class Living:
     """The sites of a triangulation that takes more.
 
-    Whoever adds sites or makes the results holds the lock. The store is made when arrays are asked for, and made
+    Whoever adds sites or makes results holds the lock. The store is made when arrays are asked for, and made
     again where it cannot go on: where coordinates are larger than it was made for, where there are many new
     sites, and in the plane always.
 
