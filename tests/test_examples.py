@@ -39,13 +39,23 @@ RUNS = {
     ],
 }
 
+SLOW = {
+    "ledger_of_a_run.py",
+    "virtual_time.py",
+}  # compile for 13 s; cm5_scaling.py and the experiments do what they do
+
 
 def test_every_example_is_run():
     assert sorted(RUNS) == sorted(path.name for path in EXAMPLES.glob("*.py"))
 
 
 @pytest.mark.parametrize(
-    ("name", "words", "written"), [(name, *run) for name, runs in RUNS.items() for run in runs]
+    ("name", "words", "written"),
+    [
+        pytest.param(name, *run, marks=[pytest.mark.slow] if name in SLOW else [])
+        for name, runs in RUNS.items()
+        for run in runs
+    ],
 )
 def test_example(name, words, written, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
