@@ -42,7 +42,7 @@ SIZES = np.unique(np.geomspace(10, 20_000, 20).round().astype(int)).tolist()
 
 
 # each number of processors compiles kernels of its own; all of them at all sizes are slow
-@pytest.mark.parametrize("machine", [name for name in MACHINES if name not in ("P=1", "P=100")])
+@pytest.mark.parametrize("machine", ["device", "P=3"])
 @pytest.mark.parametrize(("k", "n"), [(k, n) for k, n in enumerate(SIZES) if n < 1200][::2])
 def test_equals_scipy(k, n, machine):
     assert_equals_scipy(random_set(k, n), MACHINES[machine]())

@@ -9,7 +9,7 @@ from .exact import canonical, check_indices, integers, orient, validate
 from .families import LARGE, SMALL, check_ties, grid, integer_sphere, skew_lines, tetrahedra, with_centre
 
 METHODS = ["insertion", "extrapolation"]
-QUICK = 1300  # sites that extrapolation does in some seconds; fewer of each family are in SMALL
+QUICK = 600  # sites that extrapolation does in some seconds; fewer of each family are in SMALL
 CROWDED = {"rings", "skew lines"}  # unless each face is compared with most of them; fewer are in SMALL
 
 
