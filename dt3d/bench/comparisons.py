@@ -20,10 +20,16 @@ if TYPE_CHECKING:
 COMPARISONS = {
     "interpolation": "linear, natural neighbour and nearest interpolation; SciPy, MetPy",
     "voronoi": "the Voronoi diagram; SciPy",
+    "incremental": "sites added to a triangulation, beside all of them from scratch",
     "jax": "a triangulation inside jit and vmap, beside direct calls",
 }
 HEADER = ["task", "size", "other", "seconds of dt3d", "seconds of the other", "ratio", "note"]
-_MODULES = {"interpolation": "interpolation", "voronoi": "voronoi", "jax": "jax_calls"}
+_MODULES = {
+    "interpolation": "interpolation",
+    "voronoi": "voronoi",
+    "incremental": "added_sites",
+    "jax": "jax_calls",
+}
 
 
 def measure(name: str, rounds: int, quick: bool) -> list[Pair]:
@@ -55,7 +61,7 @@ def show(name: str, measured: Sequence[Pair], out: Path, console: Console) -> No
         ours, theirs = median(pair.ours), median(pair.theirs)
         cells = f"{ours:.3g}", f"{theirs:.3g}", f"{pair.ratio:.2f}"
         sheet.add_row(pair.task, pair.size, pair.other, *cells, pair.note)
-        every = [" ".join(f"{s:.6f}" for s in seconds) for seconds in (pair.ours, pair.theirs)]
+        every = [" ".join(f"{s:.9f}" for s in seconds) for seconds in (pair.ours, pair.theirs)]
         rows.append([pair.task, pair.size, pair.other, *every, pair.ratio, pair.note])
     sheet.show(console)
     write_csv(file_of(out, name), HEADER, rows)
