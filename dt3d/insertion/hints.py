@@ -15,7 +15,7 @@ from .store import Store
 SITES_PER_CELL = 4  # of uniform sets
 MOST_CELLS_PER_AXIS = 32  # a finer grid would save some steps, and take longer to make than they do
 SAMPLE = 2  # sites per cell that the table is made from; the others are near
-LARGEST_PART = 4  # the table is made again when there are so many times as many sites
+MOST_GROWTH = 4  # the table is made again when there are so many times as many sites
 
 
 class Hints:
@@ -34,11 +34,11 @@ class Hints:
         """The cell of a place, or the nearest one."""
         self._keep_up()
         side, (a, b, c), (p, q, r) = self._side, self._low, self._scale
-        i, j, k = int((x - a) * p), int((y - b) * q), int((z - c) * r)
         last = side - 1
-        i = 0 if i < 0 else min(i, last)
-        j = 0 if j < 0 else min(j, last)
-        k = 0 if k < 0 else min(k, last)
+        # places far outside a thin box are beyond all integers
+        i = int(min(max((x - a) * p, 0.0), last))
+        j = int(min(max((y - b) * q, 0.0), last))
+        k = int(min(max((z - c) * r, 0.0), last))
         return (i * side + j) * side + k
 
     def cells(self, sites: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
@@ -60,7 +60,7 @@ class Hints:
 
     def _keep_up(self) -> None:
         """Make the table, at first and when there are many more sites."""
-        if len(self._store.sites) <= 4 * LARGEST_PART * self.made_for:
+        if len(self._store.sites) <= 4 * MOST_GROWTH * self.made_for:
             return
         self.made_for = len(self._store.sites) // 4
         rows = inserted_rows(self._store.sites, max(1, self.made_for // (SAMPLE * MOST_CELLS_PER_AXIS**3)))
@@ -77,6 +77,7 @@ class Hints:
     def _cells(self, sites: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
         cells = np.zeros(len(sites), np.int64)
         for k in range(3):
-            place = ((sites[:, k] - self._low[k]) * self._scale[k]).astype(np.int64)
-            cells = cells * self._side + np.clip(place, 0, self._side - 1)
+            with np.errstate(over="ignore"):
+                place = (sites[:, k] - self._low[k]) * self._scale[k]
+            cells = cells * self._side + np.clip(place, 0, self._side - 1).astype(np.int64)
         return cells

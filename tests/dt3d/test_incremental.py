@@ -130,6 +130,15 @@ def test_coordinates_of_any_size_go_on(monkeypatch, scale, calls):
     assert_as_from_scratch(tri, points)
 
 
+@pytest.mark.parametrize("k", [1, 5])
+@pytest.mark.parametrize("thickness", [1e-30, 2e-307])
+def test_sites_far_from_a_thin_set(thickness, k):
+    points = np.vstack([RNG.random((50, 3)) * [1, 1, thickness], RNG.random((k, 3))])
+    tri = dt3d.Delaunay(points[:50], incremental=True)
+    tri.add_points(points[50:])
+    assert_as_from_scratch(tri, points)
+
+
 def test_where_it_cannot_go_on_it_begins_again(monkeypatch):
     points = RNG.random((100, 3))
     larger, finer, many = points[50:60] * 1e6, points[60:64] * 1e-300, points[50:]

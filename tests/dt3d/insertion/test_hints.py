@@ -63,8 +63,17 @@ def test_flat_and_tiny_boxes_have_cells():
         assert table.near_one(table.cell(*sites[3].tolist())) >= 0
 
 
+@pytest.mark.parametrize("thickness", [1e-30, 1e-200, 2e-307])
+def test_places_far_from_a_thin_box_have_a_cell(thickness):
+    table = Hints(store_of(RNG.random((50, 3)) * [1, 1, thickness]))
+    places = np.array([[0.5, 0.5, 1.0], [0.5, 0.5, -1.0], [-1.0, 0.5, 1.0], [1.0, 1.0, 1.0]])
+    cells = table.cells(places)
+    assert cells.tolist() == [table.cell(*place.tolist()) for place in places]
+    assert (cells % table._side).tolist() == [table._side - 1, 0, table._side - 1, table._side - 1]
+
+
 def test_the_table_is_made_again_when_there_are_many_more_sites(monkeypatch):
-    monkeypatch.setattr(hints, "LARGEST_PART", 2)
+    monkeypatch.setattr(hints, "MOST_GROWTH", 2)
     growing = Growing(RNG.random((40, 3)))
     growing.add(RNG.random((1, 3)))
     assert growing._hints.made_for == 40
