@@ -13,7 +13,9 @@ from ._given import PointsLike, as_numbers
 MOST_SITES = 2**25
 
 
-def check_points(points: PointsLike, dimension: int | None = None) -> np.ndarray:
+def check_points(
+    points: PointsLike, dimension: int | None = None, *, may_be_empty: bool = False
+) -> np.ndarray:
     """The points as a float64 array of its own, in C order, of shape (n, dimension).
 
     Without a dimension it is what the points have, 2 or 3.
@@ -25,9 +27,11 @@ def check_points(points: PointsLike, dimension: int | None = None) -> np.ndarray
         places, not finite, or too many. The message says what to do about it.
     """
     given, name = as_numbers(points, "points", dimension)
+    if may_be_empty and given.shape == (0,):
+        given = given.reshape(0, dimension or 2)
     if given.ndim != 2 or given.shape[1] not in ((2, 3) if dimension is None else (dimension,)):
         raise _shape_error(given, name, dimension)
-    if not len(given):
+    if not len(given) and not may_be_empty:
         least = {2: "three", 3: "four"}[given.shape[1]]
         msg = f"points are empty; a triangulation needs at least {least} sites"
         raise ValueError(msg)
@@ -38,20 +42,6 @@ def check_points(points: PointsLike, dimension: int | None = None) -> np.ndarray
     array = np.array(to_float64(given, name), order="C")
     _check_finite(array, "points", _of_numbers(given, name))
     return array
-
-
-def check_more_points(points: PointsLike, dimension: int) -> np.ndarray:
-    """Points to be added, as `check_points` returns them; there may be none.
-
-    Raises
-    ------
-    ValueError
-        As `check_points` does, but for their number.
-    """
-    given, _ = as_numbers(points, "points", dimension)
-    if given.shape in ((0,), (0, dimension)):
-        return np.empty((0, dimension))
-    return check_points(points, dimension)
 
 
 def check_queries(xi: npt.ArrayLike, dimension: int) -> tuple[np.ndarray, tuple[int, ...]]:
@@ -215,20 +205,6 @@ def no_area(dimension: int, n: int) -> DegenerateInputError:
         f"that came {['coincide', 'lie on a line'][dimension]} (dimension {dimension})"
     )
     return DegenerateInputError(msg, dimension)
-
-
-def scale_exponent(sites: np.ndarray) -> int:
-    """The e with which `exactly_scaled` gives sites / 2^e."""
-    from .predicates.workspace import scale_exponent
-
-    return scale_exponent(sites)
-
-
-def scaled_by(sites: np.ndarray, exponent: int) -> np.ndarray | None:
-    """Sites / 2^exponent, float64 (n, d); None where that is not exact."""
-    from .predicates.workspace import scaled_by
-
-    return scaled_by(sites, exponent)
 
 
 def exactly_scaled(sites: np.ndarray) -> np.ndarray:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._input import MOST_SITES, scale_exponent, scaled_by
+from ._input import MOST_SITES
 from ._stats import InsertionStatistics
+from .predicates.workspace import scaled_by, scaling
 
 if TYPE_CHECKING:
     from .insertion.growing import Growing
@@ -93,9 +94,7 @@ class Living:
         from .insertion.growing import Growing
 
         if self._store is None:
-            self._exponent = scale_exponent(self.points)
-            sites = scaled_by(self.points, self._exponent)
-            assert sites is not None
+            sites, self._exponent = scaling(self.points)
             self._store = Growing(sites, self.seed, self.threads)
         simplices, neighbors = self._store.result()
         return {
@@ -104,5 +103,7 @@ class Living:
             "neighbors": neighbors,
             "duplicates": self._store.duplicates,
             "iteration": np.ones(len(simplices), np.int32),
-            "stats": InsertionStatistics(**self._store.statistics()),
+            "stats": InsertionStatistics(
+                **self._store.counts(), inconsistencies=0, seconds=self._store.seconds()
+            ),
         }

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _lifting
 from ._geometry import Geometry
-from ._input import check_more_points, check_queries
+from ._input import check_points, check_queries
 from ._results import frozen
 from ._topology import OUTSIDE
 
@@ -398,7 +398,7 @@ class SciPyMembers(Geometry):
         if not isinstance(restart, bool | np.bool_):
             msg = f"restart must be True or False, got {restart!r}"
             raise ValueError(msg)
-        more = check_more_points(points, living.dimension)
+        more = check_points(points, living.dimension, may_be_empty=True)
         with living.lock:
             living.add(more, bool(restart))
             if "points" in self.__dict__:

@@ -31,7 +31,7 @@ module.{afterwards}()
 """
 
 
-CHILDREN: list[subprocess.Popen[bytes]] = []
+CHILDREN: set[subprocess.Popen[bytes]] = set()
 """Processes that may still compile."""
 
 
@@ -44,16 +44,22 @@ def end_all() -> None:
 
 def _end(child: subprocess.Popen[bytes]) -> None:
     child.kill()
-    _take_leave(child)
-    assert child.stdout is not None
-    child.stdout.close()
-
-
-def _take_leave(child: subprocess.Popen[bytes]) -> None:
-    """Wait for its end, so that no entry of it stays in the system's table."""
     child.wait()
-    if child in CHILDREN:
-        CHILDREN.remove(child)
+    CHILDREN.discard(child)
+
+
+def _attend(child: subprocess.Popen[bytes], kept: threading.Event) -> None:
+    """Note when the kernel is on disk, and when the process ends; nothing of it stays open."""
+    assert child.stdout is not None
+    with child.stdout as said:
+        said.read(1)  # nothing, where it has ended without the kernel
+    kept.set()
+    child.wait()
+    CHILDREN.discard(child)
+
+
+def _nothing() -> None:
+    """What is to be waited for where there is no process."""
 
 
 def _is_python(path: str | None) -> bool:
@@ -62,8 +68,12 @@ def _is_python(path: str | None) -> bool:
 
 
 def compiled_beside(
-    kernel: Callable[..., object], module: str, function: str, afterwards: str
-) -> Callable[[], None] | None:
+    kernel: Callable[..., object],
+    module: str,
+    function: str,
+    afterwards: str,
+    meanwhile: Callable[[], None],
+) -> Callable[[], None]:
     """Begin to compile a kernel in a process of its own, unless that is needless or in vain.
 
     Parameters
@@ -74,10 +84,12 @@ def compiled_beside(
         The function of a module, without arguments, that compiles it for these.
     afterwards : str
         The one that then compiles more.
+    meanwhile : function
+        Called in this process while it would wait for the other.
 
     Returns
     -------
-    function, or None where there is no process
+    function
         To be called before the kernel is: waits until it is on disk, or the process has ended without it.
     """
     if (
@@ -87,7 +99,7 @@ def compiled_beside(
         or not _is_python(sys.executable)
         or is_kept(kernel)
     ):
-        return None
+        return _nothing
     program = PROGRAM.format(path=sys.path, module=module, function=function, afterwards=afterwards)
     silent = subprocess.DEVNULL
     try:
@@ -95,19 +107,18 @@ def compiled_beside(
             [sys.executable, "-c", program], stdin=silent, stdout=subprocess.PIPE, stderr=silent
         )
     except OSError:
-        return None
+        return _nothing
     announce(module)
-    CHILDREN.append(child)
-    threading.Thread(target=_take_leave, args=(child,), daemon=True).start()
+    CHILDREN.add(child)
+    kept = threading.Event()
+    threading.Thread(target=_attend, args=(child, kept), daemon=True).start()
 
     def wait() -> None:
-        assert child.stdout is not None
         try:
-            child.stdout.read(1)
+            meanwhile()
+            kept.wait()
         except BaseException:  # Ctrl-C
             _end(child)
             raise
-        finally:
-            child.stdout.close()
 
     return wait

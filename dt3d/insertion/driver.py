@@ -22,7 +22,6 @@ from .first_call import insert_beside
 from .mesh import MOST_SLOTS, aligned
 from .store import BYTES_PER_SLOT, LARGEST_BLOCK, Store
 from .team import LEAST_SITES_PER_THREAD, Team, in_chunks
-from .worker import State
 
 # finite tetrahedra, ghosts and freed slots of a uniform set; grown where it is not enough
 SLOTS_PER_SITE = 8
@@ -89,17 +88,7 @@ def triangulate(
     team.mark_fresh()
     simplices, neighbors = compact(run.store, run.original, len(team.workers), room)
     run.seconds["compaction"] = time.perf_counter() - begun
-    return Outcome(
-        simplices,
-        neighbors,
-        run.duplicates,
-        walked=team.count(State.WALKED),
-        tested=team.count(State.TESTED),
-        created=team.count(State.CREATED),
-        threads=len(team.workers),
-        deferred=team.deferred,
-        seconds=run.seconds,
-    )
+    return Outcome(simplices, neighbors, run.duplicates, **team.counts(), seconds=run.seconds)
 
 
 def inserted(

@@ -30,13 +30,9 @@ def compile_insert() -> None:
     insert.compile(tuple(map(numba.typeof, arguments)))
 
 
-def compile_conflicts() -> None:
-    """Compile, or load, what `insert` calls by address in each run."""
+def compile_the_rest() -> None:
+    """Compile what a run needs beside `insert`: ghosts' conflicts, and the compaction, of no tetrahedra."""
     FUNCTIONS.address(CONFLICTS)
-
-
-def compile_compaction() -> None:
-    """Compile it by calling it for no tetrahedra."""
     mesh, number = _store().mesh, np.empty(0, np.int32)
     out = np.empty((0, 4), np.int32)
     count_finite(mesh, 0, 0)
@@ -51,17 +47,6 @@ def compile_seldom() -> None:
 
 
 def insert_beside() -> Callable[[], None]:
-    """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it.
-
-    While it waits it compiles what this process needs afterwards.
-    """
-    wait = compiled_beside(insert, __name__, compile_insert.__name__, compile_seldom.__name__)
-    if wait is None:
-        return compile_conflicts
-
-    def meanwhile() -> None:
-        compile_conflicts()
-        compile_compaction()
-        wait()
-
-    return meanwhile
+    """Begin to compile `insert` elsewhere, if it has to be; returns what waits for it."""
+    names = compile_insert.__name__, compile_seldom.__name__
+    return compiled_beside(insert, __name__, *names, compile_the_rest)

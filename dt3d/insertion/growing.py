@@ -7,9 +7,6 @@ threads own sites by their rows. The triangulation is unique, so it is the one o
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
@@ -19,8 +16,7 @@ from ..ordering.brio import insertion_rounds
 from .driver import BYTES_PER_SITE, Result, compact, inserted
 from .hints import Hints
 from .mesh import HINT, with_hints
-from .store import BYTES_PER_SLOT
-from .worker import State
+from .store import BYTES_PER_SLOT, longer
 
 BYTES_PER_ADDED_SITE = 8 * BYTES_PER_SLOT  # for its tetrahedra and ghosts, and for freed slots
 NOBODY = np.empty(0, np.int32)  # is left out of the rounds of new sites
@@ -37,8 +33,6 @@ class Growing:
         For the order of insertion.
     threads : int, optional
         For the first sites.
-    report : function, optional
-        As `driver.triangulate` has it, for the first sites.
 
     Raises
     ------
@@ -48,14 +42,8 @@ class Growing:
         If the system does not have the memory.
     """
 
-    def __init__(
-        self,
-        sites: npt.NDArray[np.float64],
-        seed: int = 0,
-        threads: int | None = None,
-        report: Callable[[int, int], None] | None = None,
-    ) -> None:
-        self._run = inserted(sites, seed, threads, report)
+    def __init__(self, sites: npt.NDArray[np.float64], seed: int = 0, threads: int | None = None) -> None:
+        self._run = inserted(sites, seed, threads)
         self._seed = seed
         self._given = len(sites)
         self._scaled = self._run.team.scale.reach == 1.0
@@ -68,18 +56,13 @@ class Growing:
         """Whether sites can be added: bounds of errors are known for coordinates up to 1, in magnitude."""
         return self._scaled and (not sites.size or (sites.max() <= 1.0 and sites.min() >= -1.0))
 
-    def statistics(self) -> dict[str, Any]:
-        """Counts of all insertions so far, and the seconds of the first sites' by phase."""
-        team = self._run.team
-        return {
-            "walked": team.count(State.WALKED),
-            "tested": team.count(State.TESTED),
-            "created": team.count(State.CREATED),
-            "threads": len(team.workers),
-            "deferred": team.deferred,
-            "inconsistencies": 0,
-            "seconds": self._run.seconds | {"total": sum(self._run.seconds.values())},
-        }
+    def counts(self) -> dict[str, int]:
+        """What was counted in all insertions so far."""
+        return self._run.team.counts()
+
+    def seconds(self) -> dict[str, float]:
+        """The wall time of the first sites, by phase and in all."""
+        return self._run.seconds | {"total": sum(self._run.seconds.values())}
 
     def add(self, sites: npt.NDArray[np.float64]) -> None:
         """Add sites, float64 (k, 3), that it `takes`; they get the numbers after those that are there.
@@ -133,9 +116,7 @@ class Growing:
         """Let the rows from ``begin`` on have these numbers."""
         end = begin + (1 if isinstance(numbers, int) else len(numbers))
         if end > len(self._numbers):
-            longer = np.empty(2 * end, np.int32)
-            longer[:begin] = self._numbers[:begin]
-            self._numbers = longer
+            self._numbers = longer(self._numbers, begin, 2 * end)
         self._numbers[begin:end] = numbers
 
     def _pairs(self, equal: list[tuple[int, int]]) -> npt.NDArray[np.int32]:

@@ -91,7 +91,7 @@ class Store:
     def reserve(self, sites: int) -> None:
         """Room for so many sites; memory that is not written yet is not resident."""
         n = len(self.sites)
-        self._room = _longer(self._room, n, 4 * sites)
+        self._room = longer(self._room, n, 4 * sites)
         self.sites = self._room[:n]
         self._mesh = None
 
@@ -116,14 +116,15 @@ class Store:
         )
         self.capacity = capacity
         self._mesh = None
-        self.tetrahedra = _longer(self.tetrahedra, 8 * self.used, 8 * capacity)
-        self.spheres = _longer(self.spheres, 4 * self.used, 4 * capacity)
+        self.tetrahedra = longer(self.tetrahedra, 8 * self.used, 8 * capacity)
+        self.spheres = longer(self.spheres, 4 * self.used, 4 * capacity)
 
 
-def _longer(array: np.ndarray, used: int, size: int) -> np.ndarray:
-    longer = aligned(size, array.dtype)
-    longer[:used] = array[:used]
-    return longer
+def longer(array: np.ndarray, used: int, size: int) -> np.ndarray:
+    """An array of so many words that begins with the words of one that are used."""
+    made = aligned(size, array.dtype)
+    made[:used] = array[:used]
+    return made
 
 
 def _begin(mesh: Mesh, first: npt.NDArray[np.int32]) -> None:

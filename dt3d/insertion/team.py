@@ -225,6 +225,13 @@ class Team:
         """How many hold tetrahedra, ghosts included."""
         return self.store.used - sum(worker.unused for worker in self.workers)
 
-    def count(self, which: State) -> int:
-        """The sum of a number of all workers."""
-        return int(sum(worker.state[which] for worker in self.workers))
+    def counts(self) -> dict[str, int]:
+        """What the workers have counted, and how many there are."""
+        states = np.array([worker.state for worker in self.workers]).sum(axis=0)
+        return {
+            "walked": int(states[State.WALKED]),
+            "tested": int(states[State.TESTED]),
+            "created": int(states[State.CREATED]),
+            "threads": len(self.workers),
+            "deferred": self.deferred,
+        }

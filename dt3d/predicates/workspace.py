@@ -45,15 +45,16 @@ def scaled(points: npt.ArrayLike) -> np.ndarray:
     >>> scaled([[0.0, 6.0], [8.0, 1.0]]).tolist()
     [[0.0, 0.375], [0.5, 0.0625]]
     """
+    return scaling(points)[0]
+
+
+def scaling(points: npt.ArrayLike) -> tuple[np.ndarray, int]:
+    """Return what `scaled` does, and the e with which that is points / 2^e."""
     points = np.asarray(points, np.float64)
-    smaller = scaled_by(points, _exponent(points))
-    return points if smaller is None else smaller
-
-
-def scale_exponent(points: np.ndarray) -> int:
-    """The e with which `scaled` returns points / 2^e; 0 where that is the points themselves."""
-    exponent = _exponent(points)
-    return exponent if scaled_by(points, exponent) is not None else 0
+    greatest = max(points.max(initial=0), -points.min(initial=0))
+    exponent = int(np.frexp(greatest)[1])
+    smaller = scaled_by(points, exponent)
+    return (points, 0) if smaller is None else (smaller, exponent)
 
 
 def scaled_by(points: np.ndarray, exponent: int) -> np.ndarray | None:
@@ -69,8 +70,3 @@ def scaled_by(points: np.ndarray, exponent: int) -> np.ndarray | None:
             smaller = points * 2.0**-exponent
         exact = smaller * 2.0**exponent == points
     return smaller if exact.all() else None
-
-
-def _exponent(points: np.ndarray) -> int:
-    greatest = max(points.max(initial=0), -points.min(initial=0))
-    return int(np.frexp(greatest)[1])

@@ -40,17 +40,12 @@ def compile_ties() -> None:
         FUNCTIONS.address(place)
 
 
+def compile_compaction() -> None:
+    """Compile it by calling it for the first triangle."""
+    compact(_store().nodes, FIRST)
+
+
 def steps_beside() -> Callable[[], None]:
-    """Begin to compile the steps elsewhere, if they have to be; returns what waits for them.
-
-    While it waits it compiles what this process needs afterwards.
-    """
-    wait = compiled_beside(METHOD.run, __name__, compile_steps.__name__, compile_ties.__name__)
-    if wait is None:
-        return lambda: None
-
-    def meanwhile() -> None:
-        compact(_store().nodes, FIRST)
-        wait()
-
-    return meanwhile
+    """Begin to compile the steps elsewhere, if they have to be; returns what waits for them."""
+    names = compile_steps.__name__, compile_ties.__name__
+    return compiled_beside(METHOD.run, __name__, *names, compile_compaction)

@@ -4,6 +4,7 @@ import io
 import subprocess
 import sys
 import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -45,9 +46,10 @@ class Listener(event.Listener):
     def on_start(self, e): compiled.append(e.data["dispatcher"].py_func.__name__)
     def on_end(self, e): pass
 
-wait = beside.compiled_beside(m.slow, m.__name__, sys.argv[2], sys.argv[3])
-if wait:
-    wait()
+done = []
+wait = beside.compiled_beside(m.slow, m.__name__, sys.argv[2], sys.argv[3], lambda: done.append("meanwhile"))
+wait()
+assert done == (["meanwhile"] if int(sys.argv[1]) > 1 else [])
 event.register("numba:compile", Listener())
 assert m.slow(7) == 21
 print(compiled)
@@ -100,35 +102,73 @@ def test_no_process_is_no_error(monkeypatch):
         raise OSError
 
     monkeypatch.setattr(beside.subprocess, "Popen", refuse)
-    assert compiled_beside(Kernel(), "time", "sleep", "sleep") is None
+    assert compiled_beside(Kernel(), "time", "sleep", "sleep", pytest.fail)() is None
+
+
+class Child:
+    """A process that says nothing until it is killed."""
+
+    def __init__(self):
+        self.killed, self.waited = threading.Event(), 0
+        self.stdout = Silent(self.killed)
+
+    def wait(self):
+        assert self.killed.wait(60)
+        self.waited += 1
+
+    def kill(self):
+        self.killed.set()
+
+
+class Silent(io.BytesIO):
+    """A pipe that ends with a process."""
+
+    def __init__(self, ended):
+        super().__init__()
+        self.ended = ended
+        self.was_closed = threading.Event()
+
+    def read(self, size):
+        assert self.ended.wait(60)
+        return b""
+
+    def close(self):
+        super().close()
+        self.was_closed.set()
 
 
 @pytest.mark.usefixtures("missing")
-def test_who_is_interrupted_leaves_no_process(monkeypatch):
-    class Interrupted(io.BytesIO):
-        def read(self, size):
-            raise KeyboardInterrupt
-
-    class Child:
-        stdout = Interrupted()
-
-        def __init__(self):
-            self.killed, self.waited = threading.Event(), 0
-
-        def wait(self):
-            assert self.killed.wait(60)
-            self.waited += 1
-
-        def kill(self):
-            self.killed.set()
-
+@pytest.mark.parametrize("interrupted", ["while it compiles", "while it waits"])
+def test_who_is_interrupted_leaves_no_process(monkeypatch, interrupted):
     child = Child()
     monkeypatch.setattr(beside.subprocess, "Popen", lambda *_, **__: child)
-    wait = compiled_beside(Kernel(), "time", "sleep", "sleep")
+    done = []
+
+    def meanwhile():
+        done.append("meanwhile")
+        if interrupted == "while it compiles":
+            raise KeyboardInterrupt
+
+    class Event(threading.Event):
+        def wait(self, timeout=None):
+            assert done == ["meanwhile"]  # before it waits
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(beside, "threading", SimpleNamespace(Event=Event, Thread=threading.Thread))
+    wait = compiled_beside(Kernel(), "time", "sleep", "sleep", meanwhile)
     assert child in beside.CHILDREN
     with pytest.raises(KeyboardInterrupt):
         wait()
     assert child.killed.is_set()
     assert child.waited >= 1
-    assert child.stdout.closed
+    assert child.stdout.was_closed.wait(60)
     assert child not in beside.CHILDREN
+
+
+@pytest.mark.usefixtures("missing")
+def test_who_does_not_wait_leaves_nothing_open(monkeypatch):
+    child = Child()
+    monkeypatch.setattr(beside.subprocess, "Popen", lambda *_, **__: child)
+    compiled_beside(Kernel(), "time", "sleep", "sleep", pytest.fail)
+    child.kill()  # it ends by itself, after a call that failed before it came to the kernel
+    assert child.stdout.was_closed.wait(60)

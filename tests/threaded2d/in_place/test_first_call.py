@@ -13,11 +13,3 @@ def test_the_types_are_those_of_a_run():
         dt3d.Delaunay(np.random.default_rng(0).random((n, 2)), threads=2)
     assert len(METHOD.run.overloads) == 1
     assert first_call.steps_beside()() is None  # there is nothing left to compile
-
-
-def test_a_process_leaves_this_one_to_compile_and_to_wait(monkeypatch):
-    called = []
-    monkeypatch.setattr(first_call, "compiled_beside", lambda *_: lambda: called.append("waited"))
-    monkeypatch.setattr(first_call, "compact", lambda *_: called.append("compiled"))
-    first_call.steps_beside()()
-    assert called == ["compiled", "waited"]
