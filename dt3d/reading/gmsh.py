@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from .cursor import Cursor
-from .gmsh_data import node_data
+from .gmsh_data import node_data, nodes_of
 from .point_data import PointData
 
 NODES = {
@@ -58,10 +58,7 @@ def read_gmsh(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray
     _end(cursor, "Elements")
     if keep is not None:
         node_data(cursor, tags, keep)
-    order = np.argsort(tags, kind="stable")
-    found = np.searchsorted(tags[order], named)
-    known = found < len(tags)
-    known[known] = tags[order][found[known]] == named[known]
+    nodes, known = nodes_of(tags, named)
     if not known.all():
         msg = f"{path}: an element names node {named[~known][0]}, which is not among the {len(tags)} nodes"
         raise ValueError(msg)
@@ -69,7 +66,7 @@ def read_gmsh(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray
     for gmsh, vtk in VTK_TYPES.items():
         types[kinds == gmsh] = vtk
     offsets = np.append(0, np.cumsum(sizes))
-    return {"points": points, "types": types, "offsets": offsets, "connectivity": order[found]}
+    return {"points": points, "types": types, "offsets": offsets, "connectivity": nodes}
 
 
 def _open(path: Path) -> tuple[Cursor, np.ndarray, np.ndarray, str]:

@@ -30,7 +30,6 @@ def node_data(cursor: Cursor, tags: np.ndarray, keep: PointData) -> None:
     ValueError
         If a section is cut off, or names a node twice or one that is not there.
     """
-    order = np.argsort(tags, kind="stable")
     while (start := cursor.data.find(b"\n$NodeData", cursor.at - 1)) >= 0:
         cursor.at = start + 1
         cursor.line()
@@ -45,18 +44,38 @@ def node_data(cursor: Cursor, tags: np.ndarray, keep: PointData) -> None:
         if (end := cursor.word("$EndNodeData")) != "$EndNodeData":
             msg = f"{cursor.path} is damaged: expected $EndNodeData after {name!r}, found {end[:40]!r}"
             raise ValueError(msg)
-        found = np.searchsorted(tags[order], named)
-        known = found < len(tags)
-        known[known] = tags[order][found[known]] == named[known]
-        if not known.all() or len(np.unique(found)) != count:
+        nodes, known = nodes_of(tags, named)
+        if not known.all() or len(np.unique(nodes)) != count:
             msg = f"{cursor.path}: data {name!r} name a node twice, or one that is not there"
             raise ValueError(msg)
         if count < len(tags):
             keep.leave_out(name, f"{count} of {len(tags)} nodes have it")
             continue
         sorted_by_node = np.empty_like(values)
-        sorted_by_node[order[found]] = values
+        sorted_by_node[nodes] = values
         keep.add(name, sorted_by_node)
+
+
+def nodes_of(tags: np.ndarray, named: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The places of named tags among the tags of the nodes, and which of them are there.
+
+    Parameters
+    ----------
+    tags : int (n,)
+        Of the nodes, in their order.
+    named : (k,)
+        Tags by which a file names nodes.
+
+    Returns
+    -------
+    int (k,)
+        Places; of no meaning for tags that are not there.
+    bool (k,)
+        Whether each is there.
+    """
+    order = np.argsort(tags, kind="stable")
+    nodes = order[np.minimum(np.searchsorted(tags[order], named), len(tags) - 1)]
+    return nodes, tags[nodes] == named
 
 
 def _head(cursor: Cursor) -> tuple[str, int, int]:

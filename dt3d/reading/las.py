@@ -51,9 +51,10 @@ def read_las(path: Path, keep: PointData | None = None) -> np.ndarray:
         if not packed:
             scan = file.read()
             points = np.array(scan.xyz, np.float64)
-            for name in header.point_format.dimension_names if keep is not None else ():
-                if name not in PLACES and keep is not None:
-                    keep.add(name, np.asarray(scan[name]))
+            if keep is not None:
+                for name in header.point_format.dimension_names:
+                    if name not in PLACES:
+                        keep.add(name, np.asarray(scan[name]))
     if packed:
         optional("lazrs", "this file")
         # lazrs panics, which prints and can end the process, where packed points are damaged

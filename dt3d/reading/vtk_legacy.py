@@ -27,11 +27,10 @@ ATTRIBUTES = {"vectors": 3, "normals": 3, "tensors": 9, "tensors6": 6, "global_i
 CELL_DATA = "cell data "
 """Stands before the names of arrays of the cells."""
 
-CELL_ARRAYS = ("cells", "vertices", "lines", "polygons", "triangle_strips")
-
-
 POINT_DATA = "point data "
 """Stands before the names of arrays of the points."""
+
+CELL_ARRAYS = ("cells", "vertices", "lines", "polygons", "triangle_strips")
 
 
 def read_legacy(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray]:

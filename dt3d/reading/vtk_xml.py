@@ -15,6 +15,7 @@ import numpy as np
 from .lattice import check_room, image, lattice
 from .point_data import PointData, join
 from .vtk_arrays import TYPES, Arrays
+from .vtk_legacy import CELL_DATA
 
 SERIAL = {
     "UnstructuredGrid": "Points",
@@ -27,9 +28,6 @@ SERIAL = {
 
 ORIGIN = {"Origin": "0 0 0", "Spacing": "1 1 1"}
 """What an image has if it does not say."""
-
-CELL_DATA = "cell data "
-"""Stands before the names of arrays of the cells."""
 
 
 def read_xml(path: Path, keep: PointData | None = None) -> dict[str, np.ndarray]:

@@ -5,8 +5,11 @@ import sys
 import tomllib
 from pathlib import Path
 
+import laspy
 import numpy as np
 import pytest
+import pyvista
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 import dt3d
 from dt3d import cli, samples
@@ -45,9 +48,6 @@ def without(monkeypatch):
 
 
 def las(tmp_path, name):
-    laspy = pytest.importorskip("laspy")
-    if name.endswith(".laz"):
-        pytest.importorskip("lazrs")
     scan = laspy.LasData(laspy.LasHeader(point_format=3))
     scan.xyz = POINTS
     scan.write(str(tmp_path / name))
@@ -61,10 +61,7 @@ def cif(tmp_path):
 
 
 def packed_by_lz4(tmp_path):
-    vtk = pytest.importorskip("vtkmodules.vtkIOXML")
-    import pyvista
-
-    writer = vtk.vtkXMLPolyDataWriter()
+    writer = vtkXMLPolyDataWriter()
     writer.SetFileName(str(tmp_path / "a.vtp"))
     writer.SetInputData(pyvista.PolyData(POINTS))
     writer.SetCompressorTypeToLZ4()

@@ -167,7 +167,6 @@ def test_a_part_is_read_only_and_pickles(name):
 
 
 def test_a_part_is_drawn(tmp_path):
-    pytest.importorskip("matplotlib")
     from dt3d.plot import draw
 
     draw(make(SITES["random"]).subset(np.arange(50)), tmp_path / "part.png")
@@ -177,7 +176,6 @@ def test_a_part_is_drawn(tmp_path):
 @pytest.mark.parametrize("name", ["random", "random in the plane"])
 @pytest.mark.parametrize("part", [False, True])
 def test_a_mesh_of_pyvista_shares_nothing_that_can_be_written(name, part):
-    pytest.importorskip("pyvista")
     tri = make(SITES[name])
     tri = tri.subset(np.arange(50)) if part else tri
     names = [n for n in type(tri)._arrays if n != "duplicates"]
@@ -202,7 +200,6 @@ def test_queries_of_a_part_are_checked():
 
 
 def test_parts_go_to_pyvista_and_to_files(tmp_path):
-    pytest.importorskip("pyvista")
     from dt3d.files import read_mesh, write_mesh
 
     tri = make(SITES["random"])
